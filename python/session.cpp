@@ -5,12 +5,16 @@
 
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
+#include "curves/felt_sources.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/contact.h"
 #include "python/errors.h"
+#include "python/json.h"
 #include "python/long_work.h"
 #include "python/result_type.h"
 #include "servo/session_file.h"
@@ -42,6 +46,10 @@ py::list events_of(const RecordedSession& session) {
   return events;
 }
 
+nlohmann::ordered_json contact_numbers(const RecordedSession& session) {
+  return curves::session_numbers(session.material, session.parameters, session.sources, assets_dir());
+}
+
 // A number of each event.
 template <class Value>
 auto of_events(Value value) {
@@ -70,6 +78,13 @@ void add_sessions(py::module_& module) {
       module, "Session", plain_type(), py::is_final(),
       "What a hand felt: every tick of the servo and every event. SI. Immutable.")
       .def_readonly("material", &RecordedSession::material, "Name of the material.")
+      .def_property_readonly(
+          "parameters", [](const RecordedSession& self) { return dict_of(contact_numbers(self)["parameters"]); },
+          "Every number of the contact that was felt, by the keys of touchafm replay --json. SI.")
+      .def_property_readonly(
+          "sources", [](const RecordedSession& self) { return dict_of(contact_numbers(self)["sources"]); },
+          "Sources of the law and of each number: dicts of value, source and estimated. In a file of 0.2.0 or older, "
+          "those of the built-in material, where the numbers are the same.")
       .def_readonly("rate", &RecordedSession::rate_hz, "Rate of the servo, Hz.")
       .def_readonly("complete", &RecordedSession::complete, "False: the file was cut, and this is its beginning.")
       .def_property_readonly(

@@ -13,6 +13,7 @@
 #include "cluster/network.h"
 #include "core/clock.h"
 #include "core/printable.h"
+#include "core/written_by.h"
 #include "input/dtrack_source.h"
 #include "input/hid_source.h"
 #include "input/tracker_report.h"
@@ -155,6 +156,7 @@ core::Result<void> list(const std::string& assets_dir, const std::string& wand_f
     nlohmann::json list = nlohmann::json::array();
     for (const Row& r : rows) {
       list.push_back({{"kind", r.kind}, {"device", r.device}, {"usable", r.usable}, {"detail", r.detail}});
+      core::name_software(list.back());
     }
     std::puts(list.dump().c_str());
     return {};

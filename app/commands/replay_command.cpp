@@ -15,6 +15,7 @@
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
+#include "curves/felt_sources.h"
 #include "exhibit/sound/session_sound.h"
 #include "exhibit/state/particle_task.h"
 #include "scene/samples/particle_set.h"
@@ -62,7 +63,7 @@ struct SessionTask {
 };
 
 std::string json(const servo::RecordedSession& session, const servo::Replay& replayed, const servo::ReplayRange& range,
-                 const std::optional<SessionTask>& task) {
+                 const std::optional<SessionTask>& task, const std::string& assets_dir) {
   nlohmann::json events = nlohmann::json::array();
   for (const scene::TipEvent& event : session.events) {
     if (!range.holds(session.seconds_since_start(event.time_ns))) continue;
@@ -95,6 +96,8 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
       {"first_difference", json_of(replayed.first)},
       {"first_different_event", json_of(replayed.first_event)},
       {"largest_difference", {{"tip_N", replayed.largest_tip_n}, {"hand_N", replayed.largest_hand_n}}}};
+  report.update(
+      nlohmann::json(curves::session_numbers(session.material, session.parameters, session.sources, assets_dir)));
   core::name_software(report);
   return report.dump() + "\n";
 }
@@ -194,8 +197,10 @@ core::Result<void> run_replay(const ReplayOptions& options, const std::string& a
   }
   std::optional<SessionTask> task;
   if (followed) task = {set.title, followed->score(), from_the_start(*session->particles)};
-  std::fputs((options.json ? json(*session, *replayed, range, task) : plain(*session, *replayed, range, task)).c_str(),
-             stdout);
+  std::fputs(
+      (options.json ? json(*session, *replayed, range, task, assets_dir) : plain(*session, *replayed, range, task))
+          .c_str(),
+      stdout);
   if (replayed->identical()) return {};
   return core::failure(core::ErrorCategory::Failed,
                        fmt::format("the replay of {} differs: {}; another build of TouchAFM may have recorded it",

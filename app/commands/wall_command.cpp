@@ -20,6 +20,7 @@
 #include "app/options/pixel_size_option.h"
 #include "cluster/network.h"
 #include "core/log.h"
+#include "core/written_by.h"
 #include "exhibit/frame/calibration.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/wall_drawing.h"
@@ -123,6 +124,7 @@ core::Result<nlohmann::json> frusta(const scene::Wall& wall, const scene::HeadPo
                      {"projection", row_major(view.projection)},
                      {"view", row_major(view.view)}});
       add_corrections(wall, index, all.back());
+      core::name_software(all.back());
     }
   }
   return all;

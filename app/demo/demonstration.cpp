@@ -11,6 +11,7 @@
 
 #include "core/log.h"
 #include "core/percentiles.h"
+#include "curves/felt_sources.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/models/shared_model.h"
@@ -139,6 +140,7 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
   }
   servo::RecordedSession session = recorder_->session();
   session.material = materials_[material].setup.material.name;
+  session.sources = curves::felt_sources(materials_[material].setup, session.parameters);
   return session;
 }
 

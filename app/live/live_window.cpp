@@ -14,6 +14,7 @@
 #include "app/view/view_parts.h"
 #include "app/view/view_pointer.h"
 #include "app/view/view_wand.h"
+#include "curves/felt_sources.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "servo/servo_client.h"
 
@@ -49,6 +50,9 @@ struct LiveWindow {
         choice(parts, given.materials, {.scale = settings.scale, .first_material = settings.first_material}),
         controls(parts) {
     panels.set_friction(&servo.friction());
+    servo.cite([&materials = given.materials](std::size_t material, const scene::SharedContact& felt) {
+      return curves::felt_sources(materials[material].setup, felt);
+    });
     if (settings.unattended) panels.show_visitors_keys_only();
   }
   LiveWindow(const LiveWindow&) = delete;

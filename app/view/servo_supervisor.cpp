@@ -118,7 +118,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         for (const auto& hears : hears_) hears(sample);
         audience_.heard(sample);
         if (!folder_) return;
-        if (recorder_->add(sample, *link_, picture_.get())) recorder_->set_earlier(curves_on_wall());
+        if (recorder_->add(sample, *link_, picture_.get())) describe_session(sample);
         keep_finished();
       },
       [&](const scene::TipEvent& event) {
@@ -171,6 +171,12 @@ void ServoSupervisor::replace(const core::Error& error, std::int64_t now_ns) {
   if (auto started = launch("the servo was restarted automatically: lift, then press Turn-On"); !started) {
     core::log_line(started.error().message);
   }
+}
+
+void ServoSupervisor::describe_session(const scene::TipSample& first) {
+  recorder_->set_earlier(curves_on_wall());
+  if (!sources_ || first.material < 0) return;
+  recorder_->set_sources(sources_(static_cast<std::size_t>(first.material), recorder_->session().parameters));
 }
 
 void ServoSupervisor::keep_finished() {

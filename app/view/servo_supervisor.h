@@ -55,6 +55,11 @@ class ServoSupervisor {
   // Calls `hears` with every event, before the sample of its tick.
   void hear_events(std::function<void(const scene::TipEvent&)> hears) { hears_events_.push_back(std::move(hears)); }
 
+  // Calls `sources` for the sources of what is felt when a session begins (curves::felt_sources()).
+  void cite(std::function<std::string(std::size_t material, const scene::SharedContact& felt)> sources) {
+    sources_ = std::move(sources);
+  }
+
   // Adds a frame of the wall to the current session.
   void record(const servo::WallFrame& frame);
   bool recording() const { return folder_.has_value(); }
@@ -88,12 +93,14 @@ class ServoSupervisor {
   void keep_part(std::int64_t now_ns);
   void stop_recording(const core::Error& error);
   std::vector<servo::EarlierCurve> curves_on_wall() const;
+  void describe_session(const scene::TipSample& first);
   void log_state();
   void log_timing() const;
 
   Starter starter_;
   std::vector<std::function<void(const scene::TipSample&)>> hears_;
   std::vector<std::function<void(const scene::TipEvent&)>> hears_events_;
+  std::function<std::string(std::size_t, const scene::SharedContact&)> sources_;
   Started started_;
   std::size_t materials_;
   std::string record_folder_;

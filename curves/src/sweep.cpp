@@ -204,14 +204,19 @@ constexpr std::array<Column, 9> kColumns{{{"tabor_parameter", &SweepRow::tabor},
 
 }  // namespace
 
+std::vector<const ContactParameter*> swept_parameters(const std::vector<SweepAxis>& axes) {
+  std::vector<const ContactParameter*> swept;
+  swept.reserve(axes.size());
+  for (const SweepAxis& axis : axes) swept.push_back(axis.parameter);
+  return swept;
+}
+
 std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                       const std::vector<SweepRow>& rows) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  std::vector<const ContactParameter*> swept;
-  swept.reserve(axes.size());
-  for (const SweepAxis& axis : axes) swept.push_back(axis.parameter);
-  fmt::format_to(out, "# TouchAFM sweep\n# software: {}\n{}", core::written_by(), setup_header(setup, swept));
+  fmt::format_to(out, "# TouchAFM sweep\n# software: {}\n{}", core::written_by(),
+                 setup_header(setup, swept_parameters(axes)));
   for (const SweepAxis& axis : axes) {
     fmt::format_to(out, "# swept: {} from {} to {}, {} values{}\n", axis.parameter->json_key, axis.from, axis.to,
                    axis.count, axis.logarithmic ? ", equal ratios" : "");
@@ -261,6 +266,7 @@ nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<S
   for (const SweepAxis& axis : axes) parameters.erase(std::string(axis.parameter->json_key));
   json result{
       {"model_requested", setup.model.text}, {"parameters", std::move(parameters)}, {"points", std::move(points)}};
+  add_sources(result, acting_sources(setup, swept_parameters(axes)));
   core::name_software(result);
   return result;
 }

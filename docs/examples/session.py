@@ -9,6 +9,8 @@
 ...     print(f"{event['kind']} at Z = {event['z'] * 1e9:.2f} nm: {event['force_before'] * 1e9:.3f} nN before")
 jump-to-contact at Z = 2.40 nm: -0.080 nN before
 jump-off-contact at Z = 14.38 nm: -1.400 nN before
+>>> session.parameters["tip_radius_m"], session.sources["tip_radius"]["source"]
+(5e-08, 'Liu & Peng, Table 1')
 >>> strongest = session.force.argmin()
 >>> bool(session.in_contact[strongest]), bool(session.hand_force[strongest] < 0.0)  # the sample pulls the hand, too
 (True, True)

@@ -277,11 +277,17 @@ struct JsonDoor::Verbs {
   static Json truth(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     arguments.finish();
     const SimulatedInstrument::Truth truth = door.instrument_.truth();
-    return {{"tip_radius_m", truth.tip_radius_m}, {"tip_growth_m", truth.tip_growth_m},
-            {"touching", truth.touching},         {"second_apex", truth.second_apex},
-            {"surface_m", truth.surface_m},       {"sample_x_m", truth.sample_x_m},
-            {"sample_y_m", truth.sample_y_m},     {"highest_force_N", truth.highest_force_n},
-            {"state_flips", truth.state_flips},   {"contact", curves::parameters_json(door.instrument_.setup())}};
+    return {{"tip_radius_m", truth.tip_radius_m},
+            {"tip_growth_m", truth.tip_growth_m},
+            {"touching", truth.touching},
+            {"second_apex", truth.second_apex},
+            {"surface_m", truth.surface_m},
+            {"sample_x_m", truth.sample_x_m},
+            {"sample_y_m", truth.sample_y_m},
+            {"highest_force_N", truth.highest_force_n},
+            {"state_flips", truth.state_flips},
+            {"contact", curves::parameters_json(door.instrument_.setup())},
+            {"sources", curves::sources_json(curves::acting_sources(door.instrument_.setup()))}};
   }
 
   static Json save(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {

@@ -63,6 +63,7 @@ TEST_F(Demo, MeetsTheEquationsWithinATenthOfAPercent) {
   for (const scene::MaterialEntry& material : materials.materials) {
     const auto events = physics::approach_retract_events(material.contact);
     const nlohmann::json& m = all["materials"][material.name];
+    EXPECT_EQ(m["sources"]["tip_radius"]["source"], "Liu & Peng, Table 1") << material.name;
     EXPECT_NEAR(m["f_attr_N"].get<double>() / events.f_attr.si, 1.0, 1e-3) << material.name;
     EXPECT_NEAR(m["f_ad_N"].get<double>() / events.f_ad.si, 1.0, 1e-3) << material.name;
     EXPECT_NEAR(m["z_jtc_m"].get<double>() / events.z_jtc.si, 1.0, 1e-3) << material.name;

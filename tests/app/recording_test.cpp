@@ -99,6 +99,7 @@ TEST_F(RecordingTest, DrawsTheFrameThatWasOnTheWall) {
   const auto session = servo::load_session(kept());
   ASSERT_TRUE(session) << program.said() << session.error().message;
   EXPECT_TRUE(session->complete);
+  EXPECT_THAT(session->sources, HasSubstr("\"source\":\"Liu & Peng, Table 1\""));
   ASSERT_FALSE(session->wall.empty());
   const auto draw = [&](double at_s, const std::string& name) {
     const std::string command = support::touchafm() + " render --session " + kept() + " --at " + std::to_string(at_s) +

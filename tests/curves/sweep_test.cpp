@@ -153,6 +153,8 @@ TEST(SweepTable, HasAColumnForEveryNumberAndALineForEveryPoint) {
   ASSERT_EQ(json["points"].size(), 4U);
   EXPECT_EQ(json["points"][3]["spring_constant_N_per_m"], 0.4);
   EXPECT_FALSE(json["parameters"].contains("spring_constant_N_per_m"));
+  EXPECT_FALSE(json["sources"].contains("spring_constant"));
+  EXPECT_FALSE(json["sources"]["hamaker"]["source"].get<std::string>().empty());
 }
 
 }  // namespace sweep_test

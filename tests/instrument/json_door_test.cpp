@@ -203,7 +203,10 @@ TEST_F(JsonDoorTest, StreamsAnImageOfASwing) {
   const json conventions = json::parse(lines.back())["conventions"];
   EXPECT_EQ(conventions["amplitude"], "zero-to-peak");
   EXPECT_THAT(conventions["phase"].get<std::string>(), HasSubstr("lag"));
-  EXPECT_EQ(answer_to(R"({"do": "truth"})")["state_flips"], 0);
+  json truth = answer_to(R"({"do": "truth"})");
+  EXPECT_EQ(truth["state_flips"], 0);
+  EXPECT_FALSE(truth["sources"]["tip_radius"]["source"].get<std::string>().empty());
+  EXPECT_FALSE(truth["sources"]["law"]["source"].get<std::string>().empty());
 }
 
 TEST_F(JsonDoorTest, SavesTheNewestImageAndCurve) {

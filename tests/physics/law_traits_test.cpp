@@ -10,6 +10,7 @@
 
 #include "mica.h"
 #include "physics/dynamic_model.h"
+#include "physics/force_laws.h"
 #include "physics/law.h"
 #include "physics/law_tables.h"
 #include "support/places.h"
@@ -81,6 +82,17 @@ TEST_P(EveryComputedLaw, IsDescribedInTheDocuments) {
     const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     EXPECT_NE(text.find("`" + std::string(traits_.name) + "`"), std::string::npos) << traits_.name << " in " << name;
   }
+}
+
+TEST_P(EveryComputedLaw, HasTheSourceOfItsRowInTheDocument) {
+  std::ifstream file(support::source("docs/physics.md"));
+  const std::string row_of_law = "| `" + std::string(traits_.name) + "` | ";
+  std::string row;
+  while (std::getline(file, row) && !row.starts_with(row_of_law)) {
+  }
+  const std::string source(source_of(traits_.law));
+  EXPECT_NE(row.find("| " + (source == "Liu & Peng" ? "the paper" : source) + " |"), std::string::npos)
+      << traits_.name << " has the source \"" << source << "\", and in the document: " << row;
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, EveryComputedLaw, testing::ValuesIn(laws_with(&LawTraits::computed)),

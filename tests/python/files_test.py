@@ -183,6 +183,9 @@ class Sessions(Files):
         self.assertTrue(np.isfinite(session.force).all())
         session = touchafm.session(corpus.parent.parent.parent / "formats" / "0.2.0" / "session-mica.afms")
         self.assertEqual(list(session.event_kind), ["jump-to-contact", "jump-off-contact"])
+        self.assertEqual(session.parameters["tip_radius_m"], 50e-9)
+        self.assertEqual(session.sources["tip_radius"]["source"], "Liu & Peng, Table 1")
+        self.assertEqual(session.sources["law"]["value"], "dmt")
         for name in ("kind", "time", "z", "force_before", "force_after"):  # the same events as arrays
             column = getattr(session, f"event_{name}")
             np.testing.assert_array_equal(column, [event[name] for event in session.events])

@@ -101,6 +101,17 @@ TEST(SessionFile, ComesBackAsItWasSaved) {
   EXPECT_NEAR(loaded->seconds_since_start(loaded->events[0].time_ns), 0.300000123, 1e-12);
 }
 
+TEST(SessionFile, KeepsTheSourcesOfItsParameters) {
+  const support::ScratchFolder folder;
+  RecordedSession session = example();
+  session.sources = R"({"tip_radius":{"estimated":false,"source":"Liu & Peng, Table 1","value":"50 nm"}})";
+  ASSERT_TRUE(save_session(session, folder.file("s.afms")));
+  EXPECT_EQ(load_session(folder.file("s.afms")).value().sources, session.sources);
+  session.sources = R"({"tip_radius":{"estimated":true,"source":null,"value":"50 nm"}})";
+  ASSERT_TRUE(save_session(session, folder.file("d.afms")));
+  EXPECT_THAT(error_of(folder.file("d.afms")), HasSubstr("its header is damaged"));
+}
+
 TEST(SessionFile, NamesTheProgramThatRecordedIt) {
   const support::ScratchFolder folder;
   ASSERT_TRUE(save_session(example(), folder.file("a.afms")));

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "curves/curve_run.h"
 #include "curves/recorded_curve.h"
@@ -32,7 +33,21 @@ nlohmann::ordered_json parameters_json(const ContactSetup& setup);
 nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& model,
                                 const std::optional<physics::LawChoice>& place);
 
-// Its last keys: the sources of the numbers that act, which of them are estimated, and the program.
+// Sources of the law and of the numbers that act, in the material's order; for a sweep without the swept numbers, and
+// without a law that may change from point to point.
+std::vector<scene::SourcedValue> acting_sources(const ContactSetup& setup,
+                                                std::span<const ContactParameter* const> swept = {});
+
+// One of them as a line of a table: "# source of tip_radius: 50 nm, Liu & Peng, Table 1".
+std::string source_line(const scene::SourcedValue& source);
+
+// {KEY: {"value", "source", "estimated"}}
+nlohmann::ordered_json sources_json(std::span<const scene::SourcedValue> sources);
+
+// Adds them as "sources", and the keys of those that are estimated.
+void add_sources(nlohmann::ordered_json& result, std::span<const scene::SourcedValue> sources);
+
+// Its last keys: the sources of the law and of the numbers that act, which of them are estimated, and the program.
 void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup);
 
 // The events as in section 4 of the design, the basis for the choice of the law, and the sources. Null for a jump that

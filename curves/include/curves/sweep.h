@@ -58,6 +58,9 @@ struct SweepRow {
 core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                                               const PathOptions& path, const std::stop_token& stop = {});
 
+// Parameters of the axes.
+std::vector<const ContactParameter*> swept_parameters(const std::vector<SweepAxis>& axes);
+
 // CSV in SI: a # header with every number that is not swept, then one line per point.
 std::string sweep_csv(const ContactSetup& setup, const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);
 nlohmann::ordered_json sweep_json(const ContactSetup& setup, const std::vector<SweepAxis>& axes,

@@ -17,6 +17,7 @@
 #include "bytes/text_table.h"
 #include "core/written_by.h"
 #include "curves/plot_units.h"
+#include "physics/force_laws.h"
 
 namespace afm::curves {
 namespace {
@@ -69,10 +70,18 @@ void append_rows(std::string& text, Samples samples) {
   }
 }
 
-// Sources of the numbers that act, in the material's order.
-std::vector<scene::SourcedValue> acting_sources(const ContactSetup& setup) {
+bool is_swept(std::string_view key, std::span<const ContactParameter* const> swept) {
+  return std::any_of(swept.begin(), swept.end(), [&](const ContactParameter* parameter) {
+    const auto& keys = parameter->source_keys;
+    return parameter->json_key == key || std::find(keys.begin(), keys.end(), key) != keys.end();
+  });
+}
+
+std::vector<scene::SourcedValue> sources_of_numbers(const ContactSetup& setup,
+                                                    std::span<const ContactParameter* const> swept) {
   std::vector<scene::SourcedValue> result;
   for (const scene::SourcedValue& source : setup.material.sources) {
+    if (is_swept(source.key, swept)) continue;
     for (const ContactParameter& parameter : contact_parameters()) {
       const auto& keys = parameter.source_keys;
       if (std::find(keys.begin(), keys.end(), source.key) == keys.end()) continue;
@@ -120,6 +129,31 @@ std::string run_header(const CurveRun& run) {
 
 }  // namespace
 
+std::vector<scene::SourcedValue> acting_sources(const ContactSetup& setup,
+                                                std::span<const ContactParameter* const> swept) {
+  std::vector<scene::SourcedValue> result = sources_of_numbers(setup, swept);
+  // an automatic law may change from one swept value to the next
+  if (!swept.empty() && setup.model.automatic) return result;
+  const std::string_view publications = physics::source_of(setup.law());
+  if (!publications.empty()) {
+    result.insert(result.begin(), {"law", setup.used_model(), std::string(publications), false});
+  }
+  return result;
+}
+
+std::string source_line(const scene::SourcedValue& source) {
+  return fmt::format("# source of {}: {}, {}{}\n", source.key, source.value, source.source,
+                     source.estimated ? " (estimated)" : "");
+}
+
+nlohmann::ordered_json sources_json(std::span<const scene::SourcedValue> sources) {
+  json result = json::object();
+  for (const scene::SourcedValue& source : sources) {
+    result[source.key] = {{"value", source.value}, {"source", source.source}, {"estimated", source.estimated}};
+  }
+  return result;
+}
+
 RecordedCurve recorded_curve(const CurveRun& run) {
   RecordedCurve recorded = recorded_curve(run.curve, run.setup.material.contact.spring_constant);
   recorded.metadata.curve_id = run.setup.material.name;
@@ -137,23 +171,13 @@ std::string setup_header(const ContactSetup& setup, std::span<const ContactParam
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "# model_requested: {}\n# material: {}\n# tip: {}\n# medium: {}\n", setup.model.text,
                  setup.material.name, setup.material.tip, setup.material.medium);
-  const auto is_swept = [&](std::string_view key) {
-    return std::any_of(swept.begin(), swept.end(), [&](const ContactParameter* parameter) {
-      const auto& keys = parameter->source_keys;
-      return parameter->json_key == key || std::find(keys.begin(), keys.end(), key) != keys.end();
-    });
-  };
   for (const ContactParameter& parameter : contact_parameters()) {
     const auto value = parameter.get(setup);
-    if (!value || !acts(parameter, setup.model) || is_swept(parameter.json_key)) continue;
+    if (!value || !acts(parameter, setup.model) || is_swept(parameter.json_key, swept)) continue;
     fmt::format_to(out, "# {}: {}\n", parameter.json_key, *value);
   }
   if (setup.law_options.exact_hamaker_sphere) fmt::format_to(out, "# exact_hamaker_sphere: true\n");
-  for (const scene::SourcedValue& source : acting_sources(setup)) {
-    if (is_swept(source.key)) continue;
-    fmt::format_to(out, "# source of {}: {}, {}{}\n", source.key, source.value, source.source,
-                   source.estimated ? " (estimated)" : "");
-  }
+  for (const scene::SourcedValue& source : acting_sources(setup, swept)) text.append(source_line(source));
   if (!setup.material.note.empty()) fmt::format_to(out, "# note: {}\n", setup.material.note);
   return fmt::to_string(text);
 }
@@ -209,15 +233,17 @@ nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& mo
   return result;
 }
 
-void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup) {
-  // apart from the result, whose elements move when it grows
-  json sources = json::object(), estimated = json::array();
-  for (const scene::SourcedValue& source : acting_sources(setup)) {
-    sources[source.key] = {{"value", source.value}, {"source", source.source}, {"estimated", source.estimated}};
+void add_sources(nlohmann::ordered_json& result, std::span<const scene::SourcedValue> sources) {
+  json estimated = json::array();
+  for (const scene::SourcedValue& source : sources) {
     if (source.estimated) estimated.push_back(source.key);
   }
-  result["sources"] = std::move(sources);
+  result["sources"] = sources_json(sources);
   result["estimated"] = std::move(estimated);
+}
+
+void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup) {
+  add_sources(result, acting_sources(setup));
   core::name_software(result);
 }
 

@@ -87,11 +87,8 @@ void add_lines(const TappingSweep& sweep, SvgPlot& plot) {
 std::string tapping_sweep_csv(const TappingSweep& sweep) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  std::vector<const ContactParameter*> swept;
-  swept.reserve(sweep.axes.size());
-  for (const SweepAxis& axis : sweep.axes) swept.push_back(axis.parameter);
   fmt::format_to(out, "# TouchAFM tapping sweep\n# software: {}\n{}", core::written_by(),
-                 setup_header(sweep.setup, swept));
+                 setup_header(sweep.setup, swept_parameters(sweep.axes)));
   const TappingOptions& numbers = sweep.choice.numbers;
   if (!is_swept(sweep, "free-amplitude")) fmt::format_to(out, "# free amplitude: {}\n", numbers.free_amplitude);
   if (!numbers.drive.empty()) fmt::format_to(out, "# drive: {}\n", numbers.drive);
@@ -148,6 +145,7 @@ nlohmann::ordered_json tapping_sweep_json(const TappingSweep& sweep) {
     point["refusal"] = row.refusal.empty() ? json() : json(row.refusal);
     points.push_back(std::move(point));
   }
+  add_sources(result, acting_sources(sweep.setup, swept_parameters(sweep.axes)));
   core::name_software(result);
   return result;
 }

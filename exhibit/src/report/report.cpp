@@ -17,6 +17,7 @@
 #include "core/percentiles.h"
 #include "core/version.h"
 #include "core/written_by.h"
+#include "curves/felt_sources.h"
 #include "curves/html_page.h"
 #include "curves/tapping/tapping_output.h"
 
@@ -263,14 +264,23 @@ RecordedCycle cycle_of(const std::vector<scene::TipSample>& samples) {
           lowest == samples.end() ? 0 : place(std::max_element(lowest, samples.end(), lower))};
 }
 
+// What was felt, with its sources, which every session of a demo has.
+nlohmann::json numbers_of(const servo::RecordedSession& session) {
+  return nlohmann::json(curves::session_numbers(session.material, session.parameters, session.sources, {}));
+}
+
 }  // namespace
 
 nlohmann::json summary_json(const DemoResult& result) {
   nlohmann::json materials = nlohmann::json::object();
-  for (const Measurement& m : result.measurements) materials[m.material] = json_of(m);
+  for (std::size_t i = 0; i < result.measurements.size(); ++i) {
+    nlohmann::json& measured = materials[result.measurements[i].material] = json_of(result.measurements[i]);
+    if (i < result.sessions.size()) measured.update(numbers_of(result.sessions[i]));
+  }
   nlohmann::json variations = nlohmann::json::array();
   for (const Variation& variation : result.variations) {
     variations.push_back(json_of(variation.measurement));
+    variations.back().update(numbers_of(variation.session));
     variations.back()["material"] = variation.measurement.material;
     variations.back()["title"] = variation.measurement.title;
   }
@@ -343,6 +353,7 @@ std::string session_csv(const servo::RecordedSession& session) {
       fmt::format_to(out, "# convention of the {}: {}\n", name, meaning.get<std::string>());
     }
   }
+  csv.append(curves::source_lines(session.sources));
   fmt::format_to(out, "# servo_rate_Hz: {}\n# hand_m_per_m: {}\n# hand_N_per_N: {}\n", session.rate_hz,
                  session.hand_m_per_m, session.hand_n_per_n);
   fmt::format_to(

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
+
 #include "physics/contact_parameters.h"
 #include "physics/force_law.h"
 #include "physics/law.h"
@@ -13,6 +15,10 @@ namespace afm::physics {
 // The law of that name, including the liquid bridge of the options (physics/meniscus.h), which the functions below
 // omit. Throws std::invalid_argument for Paper, whose tables are closed forms, and for Measured, which is not computed.
 ForceLaw force_law(Law law, const ContactParameters& contact, const LawOptions& options = {});
+
+// Publications of a law's equations, as in docs/physics.md: "Bradley 1932". Empty for Measured, whose source is a file,
+// and for an unknown law.
+std::string_view source_of(Law law);
 
 // Van der Waals attraction down to a wall at h = 0, which adheres with up to F_ad.
 ForceLaw hao_law(const ContactParameters& contact, const LawOptions& options = {});

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "laws/branch_parametrisation.h"
 #include "physics/contact.h"
@@ -20,6 +21,29 @@ namespace {
 ForceAndSlope no_force(double) { return {0.0, 0.0}; }
 
 }  // namespace
+
+std::string_view source_of(Law law) {
+  switch (law) {
+    case Law::Paper:
+      return "Liu & Peng";
+    case Law::Hao:
+      return "Hao, Baro & Saenz 1991";
+    case Law::Hertz:
+      return "Hertz 1882";
+    case Law::Dmt:
+      return "Derjaguin, Muller & Toporov 1975; Garcia & San Paulo 1999";
+    case Law::Jkr:
+      return "Johnson, Kendall & Roberts 1971";
+    case Law::MaugisDugdale:
+      return "Maugis 1992; Kim, McMeeking & Johnson 1998";
+    case Law::LennardJones:
+      return "Bradley 1932";
+    case Law::Measured:
+    case Law::Count:
+      break;
+  }
+  return {};
+}
 
 ForceLaw hao_law(const ContactParameters& contact, const LawOptions& options) {
   validate(contact);

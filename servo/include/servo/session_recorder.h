@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,9 @@ class SessionRecorder {
 
   // Curves that were on the wall when the current session began.
   void set_earlier(std::vector<EarlierCurve> curves) { session_.earlier_curves = std::move(curves); }
+
+  // Sources of the current session's parameters, curves::felt_sources().
+  void set_sources(std::string sources) { session_.sources = std::move(sources); }
 
   // True once the header of the current session is known, possibly some ticks after its first sample.
   bool has_head() const { return scale_known_ && !session_.samples.empty(); }

@@ -173,6 +173,17 @@ scene::SharedDevice device_of(const nlohmann::json& json) {
   return device;
 }
 
+// Sources as RecordedSession has them. Throws json::exception if one lacks a member or has it of another type.
+nlohmann::json sources_of(const nlohmann::json& json) {
+  nlohmann::json sources = nlohmann::json::object();
+  for (const auto& [key, source] : json.get_ref<const nlohmann::json::object_t&>()) {
+    sources[key] = {{"value", source.at("value").get<std::string>()},
+                    {"source", source.at("source").get<std::string>()},
+                    {"estimated", source.at("estimated").get<bool>()}};
+  }
+  return sources;
+}
+
 // Size written in place of a height field's if the sample has a topography. A TouchAFM without topographies then
 // rejects the session instead of replaying a plane.
 constexpr std::size_t kTopographyBytes = 0;
@@ -206,6 +217,7 @@ nlohmann::json header_of(const RecordedSession& session) {
   if (session.parameters.map_vibration != scene::MapVibration::None) {
     header["device"]["max_vibration_N"] = session.device.max_vibration_n;
   }
+  if (!session.sources.empty()) header["sources"] = nlohmann::json::parse(session.sources);
   if (!session.shown.empty()) header["shown"] = session.shown;
   if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);
   core::name_software(header);
@@ -222,6 +234,9 @@ RecordedSession session_of(const nlohmann::json& header) {
   RecordedSession session;
   session.material = header.at("material").get<std::string>();
   session.parameters = parameters_of(header.at("parameters"), session.material);
+  if (const auto sources = header.find("sources"); sources != header.end()) {
+    session.sources = sources_of(*sources).dump();
+  }
   session.rate_hz = header.at("rate_hz").get<double>();
   session.realtime = header.at("realtime").get<bool>();
   session.hand_m_per_m = header.at("hand_m_per_m").get<double>();

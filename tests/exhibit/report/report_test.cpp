@@ -50,7 +50,12 @@ TEST(Report, GivesNoFiguresOfASnapInThatWasNotRecorded) {
   m.calculation = {.f_attr_n = 0.0, .f_ad_n = 1e-9, .z_jtc_m = 0.0, .z_joc_m = 16e-9};
   DemoResult result;
   result.measurements.push_back(m);
+  result.sessions.emplace_back().material = "measured";
+  result.sessions.front().sources = R"({"tip_radius":{"estimated":true,"source":"a data sheet","value":"20 nm"}})";
   const nlohmann::json json = summary_json(result)["materials"]["measured"];
+  EXPECT_EQ(json["sources"]["tip_radius"]["source"], "a data sheet");
+  EXPECT_EQ(json["estimated"][0], "tip_radius");
+  EXPECT_TRUE(json["parameters"].contains("tip_radius_m"));
   EXPECT_TRUE(json["f_attr_N"].is_null());
   EXPECT_TRUE(json["z_jtc_m"].is_null()) << json;
   EXPECT_TRUE(json["error_vs_calculation"]["z_jtc"].is_null()) << json;
@@ -76,7 +81,9 @@ TEST(SessionCsv, IsReadAsACurve) {
   for (int i = 0; i <= kWay; ++i) add(kTopNm - kStepNm * i);
   for (int i = 1; i <= kWay; ++i) add(kTopNm - kStepNm * (kWay - i));
   for (int i = 1; i <= kBack; ++i) add(kTopNm - kStepNm * i);
+  session.sources = R"({"spring_constant":{"estimated":true,"source":"a data sheet","value":"0.5 N/m"}})";
   const std::string csv = session_csv(session);
+  EXPECT_THAT(csv, HasSubstr("\n# source of spring_constant: 0.5 N/m, a data sheet (estimated)\n"));
   EXPECT_EQ(count(csv, "\n"), count(csv, "# ") + 1 + session.samples.size());
   const auto curve = curves::parse_curve(csv, "curve-gold.csv");
   ASSERT_TRUE(curve) << curve.error().message;
