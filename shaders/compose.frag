@@ -8,7 +8,7 @@
 // pixel, and a test compares the two for each mode. The eye images contain sRGB values in a UNORM format: unscaled
 // pixels pass through unchanged. Scaling and mixing happen in linear light, through views of the same images that
 // decode them.
-layout(constant_id = 0) const uint kVariant = 0;
+layout(constant_id = AFM_CONSTANT_VARIANT) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2DArray eyes;
 layout(set = 0, binding = AFM_BINDING_LINEAR) uniform sampler2DArray linear_eyes;

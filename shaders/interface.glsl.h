@@ -14,6 +14,10 @@
 #define AFM_SET_DRAW 1
 #define AFM_BINDING_DRAW 0
 
+// specialisation constants: features of the pipeline, and true for one light without shadow
+#define AFM_CONSTANT_VARIANT 0
+#define AFM_CONSTANT_ONE_LIGHT 1
+
 // in front of everything; depth is reversed
 #define AFM_FRONT_DEPTH 0.9999
 

@@ -2,6 +2,8 @@
 // Surfaces and the studio around them. The studio is analytic (a gradient sky and three softboxes), because on a CPU
 // device texture filtering, not arithmetic, costs time.
 
+#include "one_light.glsl"
+
 const float kPi = 3.14159265;
 
 struct Surface {
@@ -111,6 +113,7 @@ vec3 key_reflection(Surface s, vec3 to_light) {
 }
 
 vec3 studio_reflection(Surface s, Key key, Lobe lobe) {
+  if (kOneLight) return kEvenLight * (s.diffuse + s.specular);
   float n_dot_v = max(dot(s.normal, s.to_eye), 0.0);
   vec3 reflected = reflect(-s.to_eye, s.normal);
   return s.diffuse * studio_irradiance(s.normal, key) +

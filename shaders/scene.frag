@@ -10,7 +10,7 @@
 #include "tone.glsl"
 #include "view.glsl"
 
-layout(constant_id = 0) const uint kVariant = 0;
+layout(constant_id = AFM_CONSTANT_VARIANT) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;

@@ -3,17 +3,20 @@
 // the rows, then along the columns. From these two the share of the light is known at any depth
 // (W. Donnelly and A. Lauritzen, "Variance Shadow Maps", 2006), with one filtered look-up.
 #version 460
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 
-layout(constant_id = 0) const uint kVariant = 0;  // 0: rows of the shadow map, 1: columns of the result
+layout(constant_id = AFM_CONSTANT_VARIANT) const uint kVariant = 0;  // 0: rows of the shadow map, 1: columns of the result
 
 layout(set = 0, binding = AFM_BINDING_TEXTURE) uniform sampler2D source;
 
 layout(location = 0) out vec2 moments;
 
 const int kReach = AFM_PENUMBRA_REACH;
-const int kTaps = 2 * kReach + 1;
+#if AFM_PENUMBRA_REACH != 3
+#error each distance has a variable
+#endif
 
 // Of the four texels of the shadow map in one, whose corner is there; or of the result.
 vec2 moments_at(vec2 place) {
@@ -26,23 +29,22 @@ void main() {
   const float texel = 1.0 / float(AFM_SOFT_SHADOW_SIZE);
   vec2 place = gl_FragCoord.xy * texel;
   vec2 apart = kVariant == 0u ? vec2(texel, 0.0) : vec2(0.0, texel);
-  vec2 around[kTaps];
-  float nearest = 1.0, farthest = 0.0;
-  for (int i = 0; i < kTaps; ++i) {
-    vec2 its = moments_at(place + float(i - kReach) * apart);
-    around[i] = its;
-    nearest = min(nearest, its.r);
-    farthest = max(farthest, its.r);
+  vec2 middle = moments_at(place);
+  float nearest = middle.r, farthest = middle.r;
+
+  // from 0 to both sides; a loop, since a CPU device takes milliseconds to compile each look-up
+  vec2 one = vec2(0.0), two = vec2(0.0), three = vec2(0.0);  // sums at these distances, once the loop is done
+  [[dont_unroll]] for (int i = 1; i <= kReach; ++i) {
+    vec2 before = moments_at(place - float(i) * apart), after = moments_at(place + float(i) * apart);
+    nearest = min(nearest, min(before.r, after.r));
+    farthest = max(farthest, max(before.r, after.r));
+    one = two;
+    two = three;
+    three = before + after;
   }
 
   // the edge is as wide as the softbox seen from there
   float radius = clamp(AFM_PENUMBRA * float(AFM_SOFT_SHADOW_SIZE) * (farthest - nearest), 1.0, float(kReach));
-  moments = vec2(0.0);
-  float total = 0.0;
-  for (int i = 0; i < kTaps; ++i) {
-    float weight = max(1.0 - abs(float(i - kReach)) / (radius + 1.0), 0.0);
-    moments += weight * around[i];
-    total += weight;
-  }
-  moments /= total;
+  vec3 weights = max(1.0 - vec3(1.0, 2.0, 3.0) / (radius + 1.0), 0.0);
+  moments = (middle + weights.x * one + weights.y * two + weights.z * three) / (1.0 + 2.0 * (weights.x + weights.y + weights.z));
 }

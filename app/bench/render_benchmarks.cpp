@@ -45,6 +45,7 @@ struct RenderBenchOptions {
   std::vector<std::string> gltf;
   bool first_frame_alone = false;
   bool files_alone = false;
+  bool one_light = false;
   bool json = false;
 };
 
@@ -78,6 +79,7 @@ core::Result<double> first_frame_ms(const RenderBenchOptions& options) {
   if (!context) return tl::unexpected(context.error());
   render::RendererOptions drawing = subject->drawing;
   drawing.samples = options.plan.samples;
+  drawing.lighting = options.plan.lighting;
   auto renderer = render::Renderer::create(*context, subject->scene, drawing);
   if (!renderer) return tl::unexpected(renderer.error());
   renderer->render(subject->frames.front());
@@ -99,9 +101,9 @@ core::Result<FirstFrame> first_frames(const std::string& program, const RenderBe
                          "cannot create the folder " + folder + " for a shader cache: set TMPDIR to a writable folder");
   }
   const std::string command = fmt::format(
-      "MESA_SHADER_CACHE_DIR={} {} bench render --first-frame-alone --eye-width {} --samples {} --assets {}",
+      "MESA_SHADER_CACHE_DIR={} {} bench render --first-frame-alone --eye-width {} --samples {} --assets {}{}",
       in_quotes(folder), in_quotes(program), options.eye_width, options.plan.samples,
-      in_quotes(options.files.assets_dir));
+      in_quotes(options.files.assets_dir), options.one_light ? " --one-light" : "");
   const auto cold = printed_frame_ms(command);
   const auto warm = cold ? printed_frame_ms(command) : cold;
   std::error_code ignored;
@@ -311,9 +313,14 @@ void add_render_benchmarks(OptionList& bench, const CommandContext& context) {
                 "measure only the files of --gltf and the peers, and print a line for each")
       .needs(gltf)
       .excludes(json);
+  command.add_flag("--one-light", options->one_light,
+                   "light scenes with one light and an even ambient light, without shadows, as simple programs do");
   add_stage_options(command, options->files, context);
   command.footer("example: touchafm bench render --rounds 3 --gltf model.glb");
-  command.when_chosen([options, &context] { return run(*options, context.program_path); });
+  command.when_chosen([options, &context] {
+    if (options->one_light) options->plan.lighting = render::Lighting::KeyAlone;
+    return run(*options, context.program_path);
+  });
 }
 
 }  // namespace afm::app

@@ -166,6 +166,7 @@ core::Result<RenderFigures> time_rendering(const std::vector<RenderSubject>& sub
       if (way.redraw == render::Redraw::Everything && subject.eyes_move) continue;  // always everything
       render::RendererOptions drawing = subject.drawing;
       drawing.samples = plan.samples;
+      drawing.lighting = plan.lighting;
       drawing.pass_mode = way.pass_mode;
       drawing.redraw = way.redraw;
       drawing.time_passes = true;

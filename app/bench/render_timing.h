@@ -18,6 +18,7 @@ struct RenderTimingPlan {
   int rounds = 5;
   int frames = 12;  // number per way and round
   std::uint32_t samples = 4;
+  render::Lighting lighting = render::Lighting::Studio;
   std::string gpu{};               // graphics device, as render::ContextOptions names it
   std::vector<std::string> peers;  // shell commands that print a JSON object with "frame_ms"
 };

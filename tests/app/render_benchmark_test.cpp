@@ -67,6 +67,15 @@ TEST(RenderBenchmark, MeasuresFilesAndPeersAlone) {
   EXPECT_THAT(result.out, testing::Not(HasSubstr("the wall")));
 }
 
+TEST(RenderBenchmark, MeasuresWithOneLight) {
+  const std::string file = support::source("assets/models/analogy.glb");
+  const support::ProgramResult result = support::run_program(
+      support::touchafm() + " bench render --one-light --files-alone --rounds 1 --frames 1 --eye-width 64 --gltf " +
+      file);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("analogy.glb, multiview"));
+}
+
 TEST(RenderBenchmark, NamesAPeerThatPrintsNoTime) {
   const support::ProgramResult result = support::run_program(
       support::touchafm() + " bench render --rounds 1 --frames 1 --eye-width 64 --peer 'echo nothing'");

@@ -153,6 +153,18 @@ TEST_F(PanelsInTheRoom, ChangedContentIsPaintedAgain) {
   EXPECT_EQ(after.rgba, draw(empty_, frame, readable()).left.rgba);
 }
 
+// The glyphs are drawn with the first panel that is shown.
+TEST_F(PanelsInTheRoom, OneThatComesLaterIsTheSame) {
+  auto frame = bare_frame(empty_);
+  auto renderer = make_renderer(empty_, readable());
+  renderer.render(frame);
+  EXPECT_EQ(count(renderer.read_eye(scene::Eye::Left), is_light), 0U);
+  frame.panels.data.content = {.title = "Mica", .subtitle = "", .rows = {{"tip radius R", "50 nm", ""}}};
+  frame.panels.data.placement = half_wall();
+  renderer.render(frame);
+  EXPECT_EQ(renderer.read_eye(scene::Eye::Left).rgba, draw(empty_, frame, readable()).left.rgba);
+}
+
 TEST_F(PanelsInTheRoom, WithoutAreaNothingIsShown) {
   auto frame = frame_with(line_panel({0.0F, 0.9F, 0.0F}));
   frame.panels.force.placement = nowhere();

@@ -152,6 +152,15 @@ TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
   frame.unshadowed.clear();
   frame.key_light.map_share = 0.0F;
   EXPECT_EQ(draw(scene, frame, small(1)).left.rgba, lit.rgba);
+
+  // nor where there is one light alone
+  frame.key_light.map_share = 1.0F;
+  render::RendererOptions one_light = small(1);
+  one_light.lighting = render::Lighting::KeyAlone;
+  const render::Image alone = draw(scene, frame, one_light).left;
+  EXPECT_GT(difference(alone, lit, 8).share_beyond, 0.01);  // without the studio
+  frame.visible[lid] = 0;
+  EXPECT_EQ(draw(scene, frame, one_light).left.rgba, alone.rgba);
 }
 
 // Width of the edge of the shadow that a lid casts on a floor `height_m` below, in a picture of the left eye.

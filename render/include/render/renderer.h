@@ -24,6 +24,10 @@ enum class PassMode { Automatic, Multiview, TwoPasses };
 // results. Everything is for measurements and for checking Changes.
 enum class Redraw { Changes, Everything };
 
+// The key light with its shadow and the studio around it; or, for comparison with programs that have no more, the key
+// light and an even light from all sides, without shadows.
+enum class Lighting { Studio, KeyAlone };
+
 // Light ink on a dark plate that lets the scene shine through a little; the same on an opaque plate, where light is
 // blended linearly and bright objects would shine through more; or white on opaque black.
 enum class PanelContrast { Normal, Opaque, High };
@@ -40,6 +44,7 @@ struct RendererOptions {
   // Size of a panel's millimetre. Panel texts are sized for the paper's wall; a smaller wall has a smaller millimetre.
   double panel_millimetre_m = 1e-3;
   PanelContrast panel_contrast = PanelContrast::Normal;
+  Lighting lighting = Lighting::Studio;
   bool time_passes = false;  // needed by pass_times()
 };
 

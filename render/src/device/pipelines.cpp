@@ -2,13 +2,25 @@
 #include "device/pipelines.h"
 
 #include <array>
+#include <cstddef>
 #include <vector>
+
+#include "device/shader_interface.h"
 
 namespace afm::render {
 namespace {
 
 constexpr std::array kDynamicStates{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
                                     vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
+
+// Specialisation constants of all shaders; one that does not use them ignores them.
+struct Constants {
+  std::uint32_t variant;
+  vk::Bool32 one_light;
+};
+constexpr std::array<vk::SpecializationMapEntry, 2> kConstants{
+    {{.constantID = AFM_CONSTANT_VARIANT, .offset = offsetof(Constants, variant), .size = sizeof(std::uint32_t)},
+     {.constantID = AFM_CONSTANT_ONE_LIGHT, .offset = offsetof(Constants, one_light), .size = sizeof(vk::Bool32)}}};
 
 vk::raii::ShaderModule create_module(const Device& device, std::span<const std::uint32_t> code) {
   return vk::raii::ShaderModule(*device, {.codeSize = code.size_bytes(), .pCode = code.data()});
@@ -35,13 +47,18 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(const PipelineRequest& reque
 }  // namespace
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request) {
-  const vk::SpecializationMapEntry variant{.constantID = 0, .offset = 0, .size = sizeof(request.variant)};
-  const vk::SpecializationInfo specialization{
-      .mapEntryCount = 1, .pMapEntries = &variant, .dataSize = sizeof(request.variant), .pData = &request.variant};
+  const Constants constants{request.variant, request.one_light ? VK_TRUE : VK_FALSE};
+  const vk::SpecializationInfo specialization{.mapEntryCount = static_cast<std::uint32_t>(kConstants.size()),
+                                              .pMapEntries = kConstants.data(),
+                                              .dataSize = sizeof(constants),
+                                              .pData = &constants};
   std::vector<vk::raii::ShaderModule> modules;
   std::vector<vk::PipelineShaderStageCreateInfo> stages;
   modules.push_back(create_module(device, request.vertex_code));
-  stages.push_back({.stage = vk::ShaderStageFlagBits::eVertex, .module = *modules.back(), .pName = "main"});
+  stages.push_back({.stage = vk::ShaderStageFlagBits::eVertex,
+                    .module = *modules.back(),
+                    .pName = "main",
+                    .pSpecializationInfo = &specialization});
   if (!request.fragment_code.empty()) {
     modules.push_back(create_module(device, request.fragment_code));
     stages.push_back({.stage = vk::ShaderStageFlagBits::eFragment,

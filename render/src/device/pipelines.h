@@ -29,7 +29,8 @@ struct PipelineRequest {
   Blending blending = Blending::Opaque;
   DepthUse depth = DepthUse::None;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  // reversed depth
-  std::uint32_t variant = 0;                              // specialisation constant 0 of the fragment shader
+  std::uint32_t variant = 0;                              // AFM_CONSTANT_VARIANT of both shaders
+  bool one_light = false;                                 // AFM_CONSTANT_ONE_LIGHT
 };
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request);

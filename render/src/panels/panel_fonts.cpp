@@ -5,11 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <new>
-#include <optional>
-#include <string>
 
 #include "core/system_packages.h"
-#include "panels/font_finder.h"
 
 namespace afm::render {
 namespace {
@@ -51,34 +48,9 @@ void* memory_or_throw(std::size_t size, void* /*unused*/) {
 }
 void give_back(void* place, void* /*unused*/) { std::free(place); }
 
-// Bytes of the fonts, in the order of FontFace; read by the atlas when it is built.
-using FontBytes = std::array<std::optional<std::string>, kFontFaces>;
+std::optional<std::string>& bytes_of(FontFiles& fonts, FontFace face) { return fonts[static_cast<std::size_t>(face)]; }
 
-std::optional<std::string>& bytes_of(FontBytes& fonts, FontFace face) { return fonts[static_cast<std::size_t>(face)]; }
-
-core::Result<FontBytes> read_fonts() {
-  FontFinder finder(font_folders());
-  FontBytes fonts;
-  for (const StyleRow& style : kStyles) {
-    for (const FontFace face : {style.first, style.second}) {
-      auto& bytes = bytes_of(fonts, face);
-      if (!bytes) bytes = finder.read(face);
-    }
-    auto& second = bytes_of(fonts, style.second);
-    if (!second && !bytes_of(fonts, style.first)) second = finder.read_similar(style.second);
-    if (second || bytes_of(fonts, style.first)) continue;
-    std::string folders;
-    for (const std::string& folder : font_folders()) folders += folder + ", ";
-    return core::failure(core::ErrorCategory::Failed,
-                         "cannot find a font for the panels (looked for Inter and DejaVu Sans in " + folders +
-                             "and asked fontconfig): " +
-                             core::install_command(core::package_system_of(core::read_os_release()),
-                                                   std::array{core::SystemPart::Fonts}));
-  }
-  return fonts;
-}
-
-core::Result<PanelFonts> draw_glyphs(FontBytes& bytes, float texels_per_mm, float true_mm) {
+core::Result<PanelFonts> draw_glyphs(FontFiles& bytes, float texels_per_mm, float true_mm) {
   PanelFonts result{.atlas = std::make_unique<ImFontAtlas>(), .texels_per_mm = texels_per_mm, .true_mm = true_mm};
   result.atlas->Flags |= ImFontAtlasFlags_NoMouseCursors;
   for (std::size_t style = 0; style < kTextStyles; ++style) {
@@ -108,18 +80,45 @@ core::Result<PanelFonts> draw_glyphs(FontBytes& bytes, float texels_per_mm, floa
 
 float text_height_mm(TextStyle style) { return kStyles[static_cast<std::size_t>(style)].height_mm; }
 
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image) {
+core::Result<FontFiles> read_panel_fonts() {
+  FontFinder finder(font_folders());
+  FontFiles fonts;
+  for (const StyleRow& style : kStyles) {
+    for (const FontFace face : {style.first, style.second}) {
+      auto& bytes = bytes_of(fonts, face);
+      if (!bytes) bytes = finder.read(face);
+    }
+    auto& second = bytes_of(fonts, style.second);
+    if (!second && !bytes_of(fonts, style.first)) second = finder.read_similar(style.second);
+    if (second || bytes_of(fonts, style.first)) continue;
+    std::string folders;
+    for (const std::string& folder : font_folders()) folders += folder + ", ";
+    return core::failure(core::ErrorCategory::Failed,
+                         "cannot find a font for the panels (looked for Inter and DejaVu Sans in " + folders +
+                             "and asked fontconfig): " +
+                             core::install_command(core::package_system_of(core::read_os_release()),
+                                                   std::array{core::SystemPart::Fonts}));
+  }
+  return fonts;
+}
+
+core::Result<PanelFonts> draw_panel_fonts(FontFiles& files, double texels_per_m, double millimetre_m,
+                                          std::uint32_t largest_image) {
   ImGui::SetAllocatorFunctions(memory_or_throw, give_back);
   const auto true_mm = static_cast<float>(1e-3 / millimetre_m);
   float texels_per_mm = std::min(static_cast<float>(texels_per_m * millimetre_m), kMostTexelsPerMm);
-  auto bytes = read_fonts();
-  if (!bytes) return tl::unexpected(bytes.error());
-  auto fonts = draw_glyphs(*bytes, texels_per_mm, true_mm);
+  auto fonts = draw_glyphs(files, texels_per_mm, true_mm);
   while (fonts && fonts->atlas->TexHeight > static_cast<int>(largest_image)) {
     texels_per_mm *= kCoarser;
-    fonts = draw_glyphs(*bytes, texels_per_mm, true_mm);
+    fonts = draw_glyphs(files, texels_per_mm, true_mm);
   }
   return fonts;
+}
+
+core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image) {
+  auto files = read_panel_fonts();
+  if (!files) return tl::unexpected(files.error());
+  return draw_panel_fonts(*files, texels_per_m, millimetre_m, largest_image);
 }
 
 }  // namespace afm::render

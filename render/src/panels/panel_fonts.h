@@ -7,8 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "core/result.h"
+#include "panels/font_finder.h"
 
 namespace afm::render {
 
@@ -28,10 +31,20 @@ struct PanelFonts {
   float true_mm = 1.0F;        // a millimetre of the room, in the panels' millimetres
 };
 
+// Bytes of the fonts, in the order of FontFace; nothing in place of a font that another replaces.
+using FontFiles = std::array<std::optional<std::string>, kFontFaces>;
+
 // Reads Inter, and DejaVu Sans for missing glyphs or as a replacement: from the program's assets, from Debian's
-// packages fonts-inter and fonts-dejavu-core, or from where fontconfig says, which may offer another font. Lengths as
-// in RendererOptions; the resolution is reduced if the glyphs would need an image of more than `largest_image` texels
-// each way. Failed: no font is found.
+// packages fonts-inter and fonts-dejavu-core, or from where fontconfig says, which may offer another font. Failed: no
+// font is found.
+core::Result<FontFiles> read_panel_fonts();
+
+// Draws the glyphs, which takes longer than most of a program's start. Lengths as in RendererOptions; the resolution is
+// reduced if the glyphs would need an image of more than `largest_image` texels each way. Failed: a file is no font.
+core::Result<PanelFonts> draw_panel_fonts(FontFiles& files, double texels_per_m, double millimetre_m,
+                                          std::uint32_t largest_image);
+
+// Both.
 core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image);
 
 }  // namespace afm::render

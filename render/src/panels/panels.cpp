@@ -5,15 +5,13 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "device/barriers.h"
 #include "device/pipelines.h"
 #include "device/shader_interface.h"
 #include "panels/panel_painting.h"
-#include "shaders/canvas_frag.h"
-#include "shaders/canvas_vert.h"
-#include "shaders/grid_frag.h"
 #include "shaders/panel_frag.h"
 #include "shaders/panel_vert.h"
 #include "shaders/panel_vert_one_view.h"
@@ -25,31 +23,12 @@ constexpr std::uint32_t kLargestTexture = 8192;  // each way; smaller if the dev
 
 const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
 
-constexpr std::array<vk::VertexInputBindingDescription, 1> kPanelBindings{
-    {{.binding = 0, .stride = sizeof(ImDrawVert)}}};
-constexpr std::array<vk::VertexInputAttributeDescription, 3> kPanelAttributes{
-    {{.location = 0, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(ImDrawVert, pos)},
-     {.location = 1, .format = vk::Format::eR32G32Sfloat, .offset = offsetof(ImDrawVert, uv)},
-     {.location = 2, .format = vk::Format::eR8G8B8A8Unorm, .offset = offsetof(ImDrawVert, col)}}};
-
 vk::raii::DescriptorSetLayout create_texture_layout(const Device& device) {
   const vk::DescriptorSetLayoutBinding binding{.binding = AFM_BINDING_TEXTURE,
                                                .descriptorType = vk::DescriptorType::eCombinedImageSampler,
                                                .descriptorCount = 1,
                                                .stageFlags = vk::ShaderStageFlagBits::eFragment};
   return vk::raii::DescriptorSetLayout(*device, {.bindingCount = 1, .pBindings = &binding});
-}
-
-vk::raii::Pipeline create_canvas_pipeline(const Device& device, const char* name,
-                                          std::span<const std::uint32_t> fragment, vk::PipelineLayout layout) {
-  return create_pipeline(device, {.name = name,
-                                  .vertex_code = shaders::canvas_vert,
-                                  .fragment_code = fragment,
-                                  .layout = layout,
-                                  .bindings = kPanelBindings,
-                                  .attributes = kPanelAttributes,
-                                  .color_format = kPanelFormat,
-                                  .blending = Blending::Premultiplied});
 }
 
 vk::raii::PipelineLayout create_rectangle_layout(const Device& device, vk::DescriptorSetLayout frame,
@@ -96,27 +75,16 @@ void reserve(const Device& device, Buffer& buffer, const char* name, std::size_t
 
 }  // namespace
 
-// A frame that an exception cut short leaves the atlas locked, and Dear ImGui lets no locked atlas go.
-void Panels::ContextDeleter::operator()(ImGuiContext* context) const {
-  ImGui::SetCurrentContext(context);
-  ImGui::GetIO().Fonts->Locked = false;
-  ImGui::DestroyContext(context);
-}
-
-Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout,
+Panels::Panels(const Device& device, FontFiles fonts, vk::DescriptorSetLayout frame_set_layout,
                const RendererOptions& options)
     : device_(device),
-      redraw_(options.redraw),
-      contrast_(options.panel_contrast),
+      options_(options),
       largest_texture_(std::min(kLargestTexture, device.physical().getProperties().limits.maxImageDimension2D)),
-      fonts_(std::move(fonts)),
-      imgui_(ImGui::CreateContext(fonts_.atlas.get())),
+      font_files_(std::move(fonts)),
       texture_layout_(create_texture_layout(device)),
       canvas_layout_(create_pipeline_layout(device, {.sets = {&*texture_layout_, 1},
                                                      .push_stages = vk::ShaderStageFlagBits::eVertex,
                                                      .push_size = sizeof(CanvasBlock)})),
-      canvas_pipeline_(create_canvas_pipeline(device, "panel canvas", shaders::canvas_frag, *canvas_layout_)),
-      grid_pipeline_(create_canvas_pipeline(device, "panel grids", shaders::grid_frag, *canvas_layout_)),
       rectangle_layout_(create_rectangle_layout(device, frame_set_layout, *texture_layout_)),
       rectangle_pipeline_(device, rectangle_request(*rectangle_layout_, "panels", DepthUse::TestOnly), kRectangleVertex,
                           kRectangleFragment),
@@ -126,45 +94,26 @@ Panels::Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout f
                                               .minFilter = vk::Filter::eLinear,
                                               .addressModeU = vk::SamplerAddressMode::eClampToEdge,
                                               .addressModeV = vk::SamplerAddressMode::eClampToEdge,
-                                              .addressModeW = vk::SamplerAddressMode::eClampToEdge}) {
-  ImGui::SetCurrentContext(imgui_.get());
-  ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;
-  io.LogFilename = nullptr;
-  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  upload_atlas();
-}
+                                              .addressModeW = vk::SamplerAddressMode::eClampToEdge}) {}
 
 Panels::~Panels() = default;
 
-void Panels::upload_atlas() {
-  unsigned char* pixels = nullptr;
-  int width = 0;
-  int height = 0;
-  fonts_.atlas->GetTexDataAsAlpha8(&pixels, &width, &height);
-  const vk::Extent2D extent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
-  const std::size_t bytes = std::size_t{extent.width} * extent.height;
-  const Buffer staging =
-      create_host_buffer(device_, "font atlas staging", bytes, vk::BufferUsageFlagBits::eTransferSrc);
-  std::memcpy(staging.mapped, pixels, bytes);
-  atlas_ = create_panel_texture(
-      device_, "font atlas",
-      {.format = vk::Format::eR8Unorm, .extent = extent, .usage = vk::ImageUsageFlagBits::eTransferDst},
-      *texture_layout_, *sampler_);
-  const ImageUse fresh{};
-  device_.run_once([&](const vk::raii::CommandBuffer& command) {
-    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, fresh, kCopiedTo)});
-    command.copyBufferToImage(*staging.buffer, *atlas_.image.image, kCopiedTo.layout,
-                              vk::BufferImageCopy{.imageSubresource = {.aspectMask = kColorAspect, .layerCount = 1},
-                                                  .imageExtent = {extent.width, extent.height, 1}});
-    record_barriers(command, {image_barrier(*atlas_.image.image, kColorAspect, kCopiedTo, kPanelSampled)});
-  });
+PanelBrush& Panels::brush() {
+  if (!brush_) {
+    auto fonts = draw_panel_fonts(font_files_, options_.panel_texels_per_m, options_.panel_millimetre_m,
+                                  device_.physical().getProperties().limits.maxImageDimension2D);
+    if (!fonts) throw std::runtime_error(fonts.error().message);
+    brush_.emplace(device_, std::move(*fonts), PanelBrush::Layouts{*texture_layout_, *canvas_layout_, *sampler_});
+    font_files_ = {};
+  }
+  return *brush_;
 }
 
 // Gives the panel a texture for its placement's size; true if it is a new one.
 bool Panels::resize(Panel& panel) {
-  const glm::dvec2 canvas = glm::max(
-      glm::ceil(size_mm(panel.placement, fonts_) * static_cast<double>(fonts_.texels_per_mm)), glm::dvec2(1.0));
+  const PanelFonts& fonts = brush().fonts();
+  const glm::dvec2 canvas =
+      glm::max(glm::ceil(size_mm(panel.placement, fonts) * static_cast<double>(fonts.texels_per_mm)), glm::dvec2(1.0));
   const double shrink = std::min(1.0, largest_texture_ / std::max(canvas.x, canvas.y));
   const glm::dvec2 texels = glm::clamp(glm::ceil(shrink * canvas), glm::dvec2(1.0), glm::dvec2(largest_texture_));
   const vk::Extent2D extent{static_cast<std::uint32_t>(texels.x), static_cast<std::uint32_t>(texels.y)};
@@ -182,11 +131,12 @@ bool Panels::resize(Panel& panel) {
 
 template <class Content>
 void Panels::paint_on(Panel& panel, const Content& content, Texels texels) {
-  ImGui::SetCurrentContext(imgui_.get());
+  brush().take_up();
+  const PanelFonts& fonts = brush().fonts();
   ImGui::GetIO().DisplaySize = {panel.canvas_texels.x, panel.canvas_texels.y};
   ImGui::NewFrame();
-  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts_, memory_, glm::vec2(size_mm(panel.placement, fonts_)),
-                contrast_);
+  Canvas canvas(*ImGui::GetBackgroundDrawList(), fonts, memory_, glm::vec2(size_mm(panel.placement, fonts)),
+                options_.panel_contrast);
   paint(canvas, content);
   ImGui::Render();
 
@@ -212,7 +162,7 @@ void Panels::paint_on(Panel& panel, const Content& content, Texels texels) {
   std::swap(latest_, panel.shapes);
   painting.whole = texels == Texels::Fresh || !changed;
   panel.part = painting.whole ? PanelPart{} : part_of(*changed, panel.canvas_texels, panel.texture.image.extent);
-  painting.whole = painting.whole || redraw_ == Redraw::Everything;
+  painting.whole = painting.whole || options_.redraw == Redraw::Everything;
   paintings_.push_back(painting);
 }
 
@@ -300,7 +250,7 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
     command.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *canvas_layout_, 0, texture, nullptr);
   };
-  bind(canvas_pipeline_, *atlas_.set);
+  bind(brush_->canvas(), brush_->glyphs());
   set_viewport(command, extent);
   const CanvasBlock block{.scale = {2.0F / panel.canvas_texels.x, 2.0F / panel.canvas_texels.y, 0.0F, 0.0F}};
   command.pushConstants<CanvasBlock>(*canvas_layout_, vk::ShaderStageFlagBits::eVertex, 0, block);
@@ -317,17 +267,24 @@ void Panels::record_painting(const vk::raii::CommandBuffer& command, const Geome
     if (clip.empty()) continue;
     command.setScissor(0, clip.rect());
     const bool is_grid = draw.GetTexID() == &memory_.grids;
-    if (is_grid) bind(grid_pipeline_, geometry.grids.set());
+    if (is_grid) bind(brush_->grids(), geometry.grids.set());
     command.drawIndexed(draw.ElemCount, 1, static_cast<std::uint32_t>(painting.first_index) + draw.IdxOffset,
                         static_cast<std::int32_t>(painting.first_vertex + draw.VtxOffset), 0);
-    if (is_grid) bind(canvas_pipeline_, *atlas_.set);
+    if (is_grid) bind(brush_->canvas(), brush_->glyphs());
   }
   command.endRendering();
   record_barriers(command, {image_barrier(*panel.texture.image.image, kColorAspect, kColorDrawn, kPanelSampled)});
 }
 
+bool Panels::shows_any() const {
+  const auto is_seen = [](const Panel& panel) { return panel.shown && !panel.apart; };
+  return std::any_of(slots_.begin(), slots_.end(), is_seen) || std::any_of(labels_.begin(), labels_.end(), is_seen) ||
+         std::any_of(eye_marks_.begin(), eye_marks_.end(), is_seen);
+}
+
 void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                                vk::DescriptorSet frame_set) {
+  if (!shows_any()) return;  // nor are the pipelines needed yet
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
   command.setCullMode(vk::CullModeFlagBits::eNone);
   const auto show = [&](const Panel& panel) {

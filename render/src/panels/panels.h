@@ -14,6 +14,7 @@
 #include "drawing/panel_sight.h"
 #include "panels/grid_texture.h"
 #include "panels/painted_shapes.h"
+#include "panels/panel_brush.h"
 #include "panels/panel_fonts.h"
 #include "panels/panel_painting.h"
 #include "panels/panel_part.h"
@@ -24,9 +25,6 @@
 namespace afm::render {
 
 inline constexpr std::size_t kFramesInFlight = 2;
-
-// Format of the panels' textures, which hold premultiplied sRGB values.
-inline constexpr vk::Format kPanelFormat = vk::Format::eR8G8B8A8Unorm;
 
 // Contribution of one panel to the eyes' pictures.
 struct PanelState {
@@ -51,8 +49,8 @@ struct ApartPanel {
 // its rectangle in the room; the banner is drawn over everything. Panels without area are neither painted nor shown.
 class Panels {
  public:
-  // With Redraw::Everything, textures are repainted as a whole.
-  Panels(const Device& device, PanelFonts fonts, vk::DescriptorSetLayout frame_set_layout,
+  // With Redraw::Everything, textures are repainted as a whole. The glyphs are drawn when a panel is first shown.
+  Panels(const Device& device, FontFiles fonts, vk::DescriptorSetLayout frame_set_layout,
          const RendererOptions& options);
   ~Panels();
 
@@ -80,9 +78,6 @@ class Panels {
  private:
   static constexpr std::size_t kSlots = core::kMembers<FramePanels>;
 
-  struct ContextDeleter {
-    void operator()(ImGuiContext* context) const;
-  };
   struct Panel {
     PanelPlacement placement;
     PanelLayer layer = PanelLayer::InScene;
@@ -123,7 +118,8 @@ class Panels {
     bool whole = true;  // false: only the panel's part
   };
 
-  void upload_atlas();
+  PanelBrush& brush();  // created by the first call
+  bool shows_any() const;
   template <class Content>
   void update(Panel& panel, const PanelPlacement& placement, const Content& content, Content& painted);
   enum class Texels { Kept, Fresh };
@@ -134,20 +130,16 @@ class Panels {
                        const Painting& painting) const;
 
   const Device& device_;
-  Redraw redraw_;
-  PanelContrast contrast_;
+  RendererOptions options_;
   double largest_texture_;  // each way
-  PanelFonts fonts_;
-  std::unique_ptr<ImGuiContext, ContextDeleter> imgui_;
+  FontFiles font_files_;    // until the glyphs are drawn
   vk::raii::DescriptorSetLayout texture_layout_;
   vk::raii::PipelineLayout canvas_layout_;
-  vk::raii::Pipeline canvas_pipeline_;
-  vk::raii::Pipeline grid_pipeline_;  // draws the colour grids of a canvas
   vk::raii::PipelineLayout rectangle_layout_;
   EyePipeline rectangle_pipeline_;
   EyePipeline over_all_pipeline_;  // draws the banner, which nothing covers
   vk::raii::Sampler sampler_;
-  PanelTexture atlas_;
+  std::optional<PanelBrush> brush_;  // nothing until a panel is shown
   std::array<Geometry, kFramesInFlight> geometry_;
   std::array<Panel, kSlots> slots_;  // in the order of FramePanels
   std::vector<Panel> labels_;

@@ -40,24 +40,26 @@ constexpr EyeCode kMaterialFragment{shaders::material_frag, shaders::material_fr
 constexpr EyeCode kBackgroundVertex{shaders::fullscreen_vert, shaders::fullscreen_vert};
 constexpr EyeCode kBackgroundFragment{shaders::background_frag, shaders::background_frag};
 
-PipelineRequest scene_request(vk::PipelineLayout layout, Blending blending) {
+PipelineRequest scene_request(const ScenePass::Look& look, Blending blending) {
   const bool opaque = blending == Blending::Opaque;
   return {.name = opaque ? "opaque" : "blended",
-          .layout = layout,
+          .layout = look.layout,
           .bindings = SceneGeometry::bindings(),
           .attributes = SceneGeometry::attributes(),
           .blending = blending,
-          .depth = opaque ? DepthUse::TestAndWrite : DepthUse::TestOnly};
+          .depth = opaque ? DepthUse::TestAndWrite : DepthUse::TestOnly,
+          .one_light = look.one_light};
 }
 
-EyePipeline plain_pipeline(const Device& device, vk::PipelineLayout layout, Blending blending, std::uint32_t variant) {
-  PipelineRequest request = scene_request(layout, blending);
+EyePipeline plain_pipeline(const Device& device, const ScenePass::Look& look, Blending blending,
+                           std::uint32_t variant) {
+  PipelineRequest request = scene_request(look, blending);
   request.variant = variant;
   return {device, request, kSceneVertex, kSceneFragment};
 }
 
-EyePipeline copies_pipeline(const Device& device, vk::PipelineLayout layout, std::uint32_t variant) {
-  PipelineRequest request = scene_request(layout, Blending::Opaque);
+EyePipeline copies_pipeline(const Device& device, const ScenePass::Look& look, std::uint32_t variant) {
+  PipelineRequest request = scene_request(look, Blending::Opaque);
   request.name = "copies";
   request.bindings = SceneGeometry::copy_bindings();
   request.attributes = SceneGeometry::copy_attributes();
@@ -87,15 +89,16 @@ vk::PrimitiveTopology topology(scene::Topology topology) {
   }
 }
 
-PipelineRequest variant_request(vk::PipelineLayout layout, const ShaderVariant& variant) {
+PipelineRequest variant_request(const ScenePass::Look& look, const ShaderVariant& variant) {
   return {.name = "look",
-          .layout = layout,
+          .layout = look.layout,
           .bindings = SceneGeometry::variant_bindings(),
           .attributes = SceneGeometry::variant_attributes(),
           .topology = topology(variant.topology),
           .blending = variant.blended ? Blending::Premultiplied : Blending::Opaque,
           .depth = variant.blended ? DepthUse::TestOnly : DepthUse::TestAndWrite,
-          .variant = variant.bits};
+          .variant = variant.bits,
+          .one_light = look.one_light};
 }
 
 vk::raii::PipelineLayout create_scene_layout(const Device& device, vk::DescriptorSetLayout frame,
@@ -135,32 +138,33 @@ vk::raii::Pipeline create_shadow_of_copies(const Device& device, vk::PipelineLay
 }  // namespace
 
 ScenePass::ScenePass(const Device& device, const FrameSetLayouts& layouts, const SceneMaterials& materials,
-                     const std::vector<ShaderVariant>& variants)
-    : layout_(create_scene_layout(device, *layouts.eyes, layouts)),
+                     const std::vector<ShaderVariant>& variants, Lighting lighting)
+    : device_(device),
+      one_light_(lighting == Lighting::KeyAlone),
+      layout_(create_scene_layout(device, *layouts.eyes, layouts)),
       shadow_layout_(create_scene_layout(device, *layouts.shadow, layouts)),
       variant_layout_(create_variant_layout(device, layouts, materials.layout())),
-      shadow_(create_pipeline(device, shadow_request(*shadow_layout_))),
-      opaque_{plain_pipelines(device, *layout_, Blending::Opaque, 0),
-              plain_pipelines(device, *layout_, Blending::Opaque, AFM_FEATURE_FOG)},
-      shadow_copies_(create_shadow_of_copies(device, *shadow_layout_)),
-      copies_{copies_pipeline(device, *layout_, 0), copies_pipeline(device, *layout_, AFM_FEATURE_FOG)},
-      fine_(device, scene_request(*layout_, Blending::Opaque), kFineVertex, kFineFragment),
+      opaque_{plain_pipelines(device, plain_look(), Blending::Opaque, 0),
+              plain_pipelines(device, plain_look(), Blending::Opaque, AFM_FEATURE_FOG)},
+      copies_{copies_pipeline(device, plain_look(), 0), copies_pipeline(device, plain_look(), AFM_FEATURE_FOG)},
+      fine_(device, scene_request(plain_look(), Blending::Opaque), kFineVertex, kFineFragment),
       background_(device, background_request(*layout_, Background::Behind), kBackgroundVertex, kBackgroundFragment),
       erasing_background_(device, background_request(*layout_, Background::Erasing), kBackgroundVertex,
                           kBackgroundFragment),
-      blended_{plain_pipelines(device, *layout_, Blending::Premultiplied, 0),
-               plain_pipelines(device, *layout_, Blending::Premultiplied, AFM_FEATURE_FOG)} {
+      blended_{plain_pipelines(device, plain_look(), Blending::Premultiplied, 0),
+               plain_pipelines(device, plain_look(), Blending::Premultiplied, AFM_FEATURE_FOG)} {
   for (const ShaderVariant& variant : variants) {
-    variants_.emplace_back(device, variant_request(*variant_layout_, variant), kMaterialVertex, kMaterialFragment);
+    variants_.emplace_back(device, variant_request({*variant_layout_, one_light_}, variant), kMaterialVertex,
+                           kMaterialFragment);
   }
 }
 
-ScenePass::PlainPipelines ScenePass::plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+ScenePass::PlainPipelines ScenePass::plain_pipelines(const Device& device, const Look& look, Blending blending,
                                                      std::uint32_t variant) {
-  return {plain_pipeline(device, layout, blending, variant),
-          plain_pipeline(device, layout, blending, variant | AFM_FEATURE_DOUBLE_SIDED),
-          plain_pipeline(device, layout, blending, variant | AFM_FEATURE_UNLIT),
-          {device, scene_request(layout, blending), kSmoothVertex, kSmoothFragment}};
+  return {plain_pipeline(device, look, blending, variant),
+          plain_pipeline(device, look, blending, variant | AFM_FEATURE_DOUBLE_SIDED),
+          plain_pipeline(device, look, blending, variant | AFM_FEATURE_UNLIT),
+          {device, scene_request(look, blending), kSmoothVertex, kSmoothFragment}};
 }
 
 void ScenePass::set_state(const vk::raii::CommandBuffer& command, vk::PipelineLayout layout, const Input& input,
@@ -220,14 +224,23 @@ void ScenePass::record_in_eyes(const vk::raii::CommandBuffer& command, const Eye
   }
 }
 
+const vk::raii::Pipeline& ScenePass::shadow_pipeline(bool copied) {
+  vk::raii::Pipeline& pipeline = copied ? shadow_copies_ : shadow_;
+  if (!*pipeline) {
+    pipeline = copied ? create_shadow_of_copies(device_, *shadow_layout_)
+                      : create_pipeline(device_, shadow_request(*shadow_layout_));
+  }
+  return pipeline;
+}
+
 void ScenePass::record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
-                              std::span<const std::uint32_t> draws) const {
+                              std::span<const std::uint32_t> draws) {
   bind_buffers(command, input);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *shadow_layout_, 0, input.frame_set, nullptr);
   const vk::raii::Pipeline* bound = nullptr;
   Sides sides;
   for (const std::uint32_t i : draws) {
-    const vk::raii::Pipeline& pipeline = input.geometry.draws()[i].most_copies > 0 ? shadow_copies_ : shadow_;
+    const vk::raii::Pipeline& pipeline = shadow_pipeline(input.geometry.draws()[i].most_copies > 0);
     if (&pipeline != bound) command.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipeline);
     bound = &pipeline;
     set_state(command, *shadow_layout_, input, i, sides);

@@ -11,6 +11,7 @@
 #include "passes/damage.h"
 #include "passes/frame_slot.h"
 #include "passes/scene_materials.h"
+#include "render/renderer.h"
 
 namespace afm::render {
 
@@ -18,7 +19,13 @@ namespace afm::render {
 class ScenePass {
  public:
   ScenePass(const Device& device, const FrameSetLayouts& layouts, const SceneMaterials& materials,
-            const std::vector<ShaderVariant>& variants);
+            const std::vector<ShaderVariant>& variants, Lighting lighting);
+
+  // What all pipelines of the eyes have in common.
+  struct Look {
+    vk::PipelineLayout layout;
+    bool one_light = false;
+  };
 
   struct Input {
     const SceneGeometry& geometry;
@@ -33,8 +40,7 @@ class ScenePass {
     vk::Buffer shapes{};                // as FrameSlot::shapes()
   };
   // Draws `draws` of the input's geometry; the input's frame set is FrameSlot::shadow_set().
-  void record_shadow(const vk::raii::CommandBuffer& command, const Input& input,
-                     std::span<const std::uint32_t> draws) const;
+  void record_shadow(const vk::raii::CommandBuffer& command, const Input& input, std::span<const std::uint32_t> draws);
   void record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input);
 
  private:
@@ -42,7 +48,8 @@ class ScenePass {
     EyePipeline single_sided, double_sided, unlit;
     EyePipeline smooth;  // Shading::LightByVertex, without haze
   };
-  static PlainPipelines plain_pipelines(const Device& device, vk::PipelineLayout layout, Blending blending,
+  Look plain_look() const { return {*layout_, one_light_}; }
+  static PlainPipelines plain_pipelines(const Device& device, const Look& look, Blending blending,
                                         std::uint32_t variant);
   // Sides that are shown; unknown at the start of a list. Set only where they change: a CPU device spends about a
   // microsecond on each command.
@@ -55,21 +62,23 @@ class ScenePass {
   static void draw_one(const vk::raii::CommandBuffer& command, const Input& input, std::uint32_t draw);
   static void bind_buffers(const vk::raii::CommandBuffer& command, const Input& input);
   EyePipeline& plain_one(const Draw& draw, Shading shading, bool hazy, PlainPipelines& plain);
+  const vk::raii::Pipeline& shadow_pipeline(bool copied);
   static void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                                 EyePipeline& pipeline);
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, PlainPipelines& plain);
 
+  const Device& device_;
+  bool one_light_;
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout variant_layout_;
-  vk::raii::Pipeline shadow_;
-  std::array<PlainPipelines, 2> opaque_;  // without and with haze
-  vk::raii::Pipeline shadow_copies_;
-  std::array<EyePipeline, 2> copies_;  // without and with haze
-  EyePipeline fine_;                   // shaded per vertex, without haze
-  EyePipeline background_;             // drawn where nothing else is
-  EyePipeline erasing_background_;     // overwrites the old contents
+  std::array<PlainPipelines, 2> opaque_;                         // without and with haze
+  vk::raii::Pipeline shadow_{nullptr}, shadow_copies_{nullptr};  // created at first use
+  std::array<EyePipeline, 2> copies_;                            // without and with haze
+  EyePipeline fine_;                                             // shaded per vertex, without haze
+  EyePipeline background_;                                       // drawn where nothing else is
+  EyePipeline erasing_background_;                               // overwrites the old contents
   std::array<PlainPipelines, 2> blended_;
   std::vector<EyePipeline> variants_;  // in the order of SceneGeometry::variants()
 };

@@ -83,14 +83,14 @@ vk::Rect2D part_between(std::int32_t left, std::int32_t top, std::int32_t right,
 }  // namespace
 
 SoftShadow::SoftShadow(const Device& device, vk::ImageView depth)
-    : images_{create_moments(device, "shadow along rows"), create_moments(device, "soft shadow")},
+    : device_(device),
+      images_{create_moments(device, "shadow along rows"), create_moments(device, "soft shadow")},
       views_{create_view(device, images_[kRows], kColorAspect, 0, 1),
              create_view(device, images_[kColumns], kColorAspect, 0, 1)},
       sampler_(create_border_sampler(device, vk::Filter::eLinear)),
       texel_sampler_(create_border_sampler(device, vk::Filter::eNearest)),
       set_layout_(create_source_layout(device)),
       layout_(create_pipeline_layout(device, {.sets = {&*set_layout_, 1}})),
-      pipelines_{create_softening(device, *layout_, kRows), create_softening(device, *layout_, kColumns)},
       pool_(create_source_pool(device)),
       sets_(create_source_sets(device, *pool_, *set_layout_)) {
   const auto write = [&](Step step, vk::ImageView view) {
@@ -107,7 +107,8 @@ SoftShadow::SoftShadow(const Device& device, vk::ImageView depth)
   write(kColumns, *views_[kRows]);
 }
 
-void SoftShadow::draw(const vk::raii::CommandBuffer& command, Step step, const vk::Rect2D& part) const {
+void SoftShadow::draw(const vk::raii::CommandBuffer& command, Step step, const vk::Rect2D& part) {
+  if (!*pipelines_[step]) pipelines_[step] = create_softening(device_, *layout_, step);
   const vk::RenderingAttachmentInfo color{.imageView = *views_[step],
                                           .imageLayout = kColorDrawn.layout,
                                           .loadOp = vk::AttachmentLoadOp::eDontCare,
@@ -121,7 +122,7 @@ void SoftShadow::draw(const vk::raii::CommandBuffer& command, Step step, const v
   command.endRendering();
 }
 
-void SoftShadow::record(const vk::raii::CommandBuffer& command, const vk::Rect2D& changed) const {
+void SoftShadow::record(const vk::raii::CommandBuffer& command, const vk::Rect2D& changed) {
   if (changed.extent.width == 0 || changed.extent.height == 0) return;
   const auto right = changed.offset.x + static_cast<std::int32_t>(changed.extent.width);
   const auto bottom = changed.offset.y + static_cast<std::int32_t>(changed.extent.height);
@@ -140,6 +141,12 @@ void SoftShadow::record(const vk::raii::CommandBuffer& command, const vk::Rect2D
                                           whole ? kMomentsSampled.discarded() : kMomentsSampled, kColorDrawn)});
   draw(command, kColumns, part_between(from_x, from_y, to_x, to_y));
   record_barriers(command, {image_barrier(*images_[kColumns].image, kColorAspect, kColorDrawn, kMomentsSampled)});
+}
+
+void SoftShadow::leave_empty() const {
+  device_.run_once([&](const vk::raii::CommandBuffer& command) {
+    record_barriers(command, {image_barrier(*images_[kColumns].image, kColorAspect, ImageUse{}, kMomentsSampled)});
+  });
 }
 
 vk::DescriptorImageInfo SoftShadow::descriptor() const {

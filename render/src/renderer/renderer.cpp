@@ -66,7 +66,7 @@ bool see_the_same(const std::array<scene::EyeView, 2>& eyes) {
 }  // namespace
 
 Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options,
-                       PanelFonts fonts)
+                       FontFiles fonts)
     : device(the_device),
       options(the_options),
       quality{.scale = 1.0, .samples = options.samples},
@@ -77,7 +77,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       shadow_map(device),
       soft_shadow(device, shadow_map.view()),
       set_layouts(device),
-      scene_pass(device, set_layouts, materials, geometry.variants()),
+      scene_pass(device, set_layouts, materials, geometry.variants(), options.lighting),
       panels(device, std::move(fonts), *set_layouts.eyes, options),
       enlarger(device),
       composer(device, eyes, eye_changes),
@@ -88,6 +88,7 @@ Renderer::Parts::Parts(const Device& the_device, const scene::Scene& scene, cons
       clocks.emplace_back(device);
     }
   }
+  if (options.lighting == Lighting::KeyAlone) soft_shadow.leave_empty();
 }
 
 void Renderer::Parts::wait_for(std::uint64_t value) const { device.wait_for(timeline, value); }
@@ -187,7 +188,8 @@ void Renderer::Parts::render(const FrameState& frame) {
   now.take(frame, geometry, slot.draws, eyes.drawing(), eyes.guard_band(), panels);
   if (options.redraw == Redraw::Everything) drawn.forget();
   slot.area = damage.between(drawn, now, geometry);
-  const ShadowStep step = shadow_casters.update(frame, geometry, slot.draws);
+  const ShadowStep step =
+      options.lighting == Lighting::KeyAlone ? ShadowStep::Nothing : shadow_casters.update(frame, geometry, slot.draws);
   slot.shadowed = step != ShadowStep::Nothing;
   redrawn_share = slot.area.share_of(eyes.drawing().extent);
   rested = slot.area.empty() && !slot.painted && !slot.shadowed;
@@ -243,7 +245,7 @@ core::Result<Renderer> Renderer::create(Context& context, const scene::Scene& sc
                                      "materials: the limit is {}; use fewer kinds of material",
                                      variants, kMostShaderVariants));
   }
-  auto fonts = load_panel_fonts(options.panel_texels_per_m, options.panel_millimetre_m, largest);
+  auto fonts = read_panel_fonts();
   if (!fonts) {
     return tl::unexpected(fonts.error());
   }

@@ -22,7 +22,7 @@ namespace afm::render {
 
 // Members in the order of creation: later members use earlier ones.
 struct Renderer::Parts {
-  Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options, PanelFonts fonts);
+  Parts(const Device& the_device, const scene::Scene& scene, const RendererOptions& the_options, FontFiles fonts);
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
   ~Parts() { device.wait_idle(); }
