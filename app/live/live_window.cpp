@@ -49,6 +49,7 @@ struct LiveWindow {
         choice(parts, given.materials, {.scale = settings.scale, .first_material = settings.first_material}),
         controls(parts) {
     panels.set_friction(&servo.friction());
+    servo.set_force_map(settings.force_map);
     if (settings.unattended) panels.show_visitors_keys_only();
   }
   LiveWindow(const LiveWindow&) = delete;
