@@ -68,7 +68,7 @@ void set_numbers(const py::kwargs& given, curves::FitOptions& options) {
 }
 
 Fit fit(const py::object& given, const std::string& model, const std::optional<std::string>& base,
-        const std::optional<std::string>& against, bool tilt, bool white_noise,
+        const std::optional<std::string>& against, bool tilt, bool white_noise, bool bootstrap,
         const std::map<std::string, double>& uncertainties, const std::optional<std::string>& contact_point,
         const py::kwargs& numbers) {
   curves::FitOptions options;
@@ -77,6 +77,7 @@ Fit fit(const py::object& given, const std::string& model, const std::optional<s
   if (against) options.against = row_named(fits::kAgainst, *against, "variable").against;
   options.tilt = tilt;
   options.white = white_noise;
+  options.bootstrap = bootstrap;
   for (const auto& [key, share] : uncertainties) {
     std::string name(key);
     std::replace(name.begin(), name.end(), '_', '-');
@@ -170,6 +171,21 @@ void add_fit(py::module_& module) {
           },
           "95 % interval of W, J/m2.")
       .def_property_readonly(
+          "E_bootstrap_interval",
+          [](const Fit& self) -> py::object {
+            if (!self.found.bootstrap) return py::none();
+            return interval(self.found.bootstrap->modulus_pa);
+          },
+          "95 % interval of E by a bootstrap, Pa: low, high; None without bootstrap=True, or if too few fits had an "
+          "end.")
+      .def_property_readonly(
+          "W_bootstrap_interval",
+          [](const Fit& self) -> py::object {
+            if (!self.found.bootstrap || !self.found.adhesion) return py::none();
+            return interval(self.found.bootstrap->work_j_per_m2);
+          },
+          "The same of W, J/m2.")
+      .def_property_readonly(
           "model", [](const Fit& self) { return fits::row_of(self.found.shape).name; },
           "Shape or law; of \"auto\" the chosen one.")
       .def_property_readonly(
@@ -200,10 +216,12 @@ void add_fit(py::module_& module) {
 void add_fit_function(py::module_& module) {
   module.def("fit", &fit, py::arg("curve"), py::kw_only(), py::arg("model"), py::arg("base") = py::none(),
              py::arg("against") = py::none(), py::arg("tilt") = false, py::arg("white_noise") = false,
-             py::arg("uncertainties") = std::map<std::string, double>(), py::arg("contact_point") = py::none(),
+             py::arg("bootstrap") = false, py::arg("uncertainties") = std::map<std::string, double>(),
+             py::arg("contact_point") = py::none(),
              "Elastic modulus of a curve with its interval, as touchafm analyse --fit finds it.\n\n"
              "curve: a Curve or its Analysis. model: a shape or a law of adhesion of --fit.\n"
              "Numbers: tip_radius m, half_angle rad, layer m, poisson, atomic_distance m, most_force N, most_depth m.\n"
+             "bootstrap: also intervals of E and W by 200 more fits to residuals that are drawn in blocks, against z.\n"
              "uncertainties: relative standard deviations of what is given, {\"spring_constant\": 0.1}.\n"
              "Raises ValueError as the command refuses its options, FileError for a curve that nothing fits.\n"
              "docs/fits.md has the equations with their sources; as_dict()[\"source\"] is that of the shape.");

@@ -11,15 +11,16 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/session_stage.h"
 #include "app/demo/demonstration.h"
 #include "app/live/view_keys.h"
 #include "app/options/command.h"
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
+#include "app/view/map_overlay.h"
 #include "app/view/view_panels.h"
 #include "core/log.h"
 #include "curves/live_parameters.h"
-#include "curves/measured_material.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/frame/recorded_wall.h"
@@ -29,6 +30,7 @@
 #include "exhibit/panels/parameter_panel.h"
 #include "exhibit/panels/scratch_panel.h"
 #include "exhibit/scan/live_scan.h"
+#include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/state/particle_task.h"
@@ -56,35 +58,6 @@ struct RenderOptions {
   exhibit::PictureOptions picture;
   exhibit::ExhibitFiles files;
 };
-
-// The wall as far as the session records it: the paper's three materials together, any other material by itself.
-core::Result<exhibit::ExhibitFiles> files_for(const servo::RecordedSession& session, exhibit::ExhibitFiles files) {
-  const auto& paper = scene::kPaperMaterials;
-  if (!session.wall.empty() && files.shown.empty()) {
-    files.shown = session.shown;
-    std::erase(files.shown, curves::kMeasuredName);  // in no material file: drawn with the session's curve
-  }
-  const bool shown_anyway = !files.materials.empty() || !files.shown.empty() ||
-                            std::find(paper.begin(), paper.end(), session.material) != paper.end();
-  if (session.curve) {
-    scene::MaterialEntry entry;
-    entry.name = session.material;
-    entry.title = "Measured curve";
-    if (session.curve->column >= 0) entry.title += fmt::format(" ({},{})", session.curve->column, session.curve->row);
-    entry.look = paper.front();
-    entry.contact = session.parameters.contact;
-    files.added.push_back(entry);
-  } else if (!shown_anyway) {
-    files.shown = {session.material};
-  }
-  if (!session.particles) return files;
-  if (!files.sample.empty()) {
-    return core::wrong_usage("--sample: the session's particles rest on a level sample of their own; leave it out");
-  }
-  files.recorded_particles =
-      std::make_shared<const scene::ParticleSet>(scene::recorded_set(session.particles->set, files.assets_dir));
-  return files;
-}
 
 // Width to height of an eye's picture if the size is given. The paper's wall takes this ratio, so that nothing is
 // stretched.
@@ -180,6 +153,17 @@ void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureO
   }
 }
 
+// Shows a whole map in the panels as it was in the frame; returns what was seen of its curves.
+MapView show_map(const servo::WallFrame& frame, const std::vector<curves::SampleModel>& models,
+                 std::optional<std::size_t> material, ViewPanels& panels, scene::TipState& tip) {
+  if (!frame.map || !material || !models[*material].felt_map) return {};
+  const servo::RecordedMapView& map = *frame.map;
+  if (const auto quantity = exhibit::map_quantity_of(map.quantity))
+    panels.show_map_quantity(*models[*material].pixel, *quantity);
+  tip.here = {.reduced_modulus_pa = map.reduced_modulus_pa, .adhesion_j_per_m2 = map.adhesion_j_per_m2};
+  return {.slice = map.slice, .equal_force_n = map.equal_force_n};
+}
+
 // Draws the frame as it was on the live wall.
 core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::SampleModel>& models,
                               const servo::RecordedSession& session, const exhibit::ParticlesNow* particles,
@@ -211,12 +195,16 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
   scene::TipState tip;
   tip.tip = then.moment.wall.tip;
   tip.swing = then.moment.wall.swing;
+  tip.surface = then.moment.wall.surface;
+  MapOverlay overlay(stage, panels);
+  const MapView curves_of_map = show_map(*then.frame, models, material, panels, tip);
   const auto add_panels = [&](render::FrameState& frame) {
     panels.add_to(frame, {}, material, material ? stage.phrases().word(stage.materials.materials[*material].title) : "",
                   tip, HandSource::Mouse);
     if (then.moment.wall.particles != nullptr && scene::leaves_marks(*then.moment.wall.particles->set)) {
       exhibit::leave_law_out(*then.moment.wall.particles, stage.phrases(), frame.panels.force.content);
     }
+    if (material) overlay.add_to(frame, models[*material], then.moment.wall, then.moment.retracting, curves_of_map);
   };
   return draw(stage, models, then.moment, picture, options.out, add_panels);
 }
@@ -258,7 +246,7 @@ core::Result<void> draw_replayed(const exhibit::Stage& stage, const std::vector<
       stage.phrases().word(stage.materials.materials[material].title), fmt::format("{:.2f} s", options.at_s));
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   return draw(stage, models, moment, options.picture, options.out, [&](render::FrameState& frame) {
-    if (session.curve) return;  // the recorded law is no forecast
+    if (session.curve || session.law_map) return;  // the recorded law is no forecast
     exhibit::add_forecast(curves::LiveParameters(models[material]), stage.phrases(), frame.panels.force.content);
   });
 }
@@ -268,40 +256,16 @@ core::Result<void> run_render(const RenderOptions& options) {
   auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
-  auto drawn_files = files_for(*session, options.files);
-  if (!drawn_files) return tl::unexpected(drawn_files.error());
-  exhibit::ExhibitFiles& files = *drawn_files;
+  exhibit::ExhibitFiles files = options.files;
   const auto seen = scene::parse_stereo_mode(session->wall.empty() ? "" : session->wall.front().stereo);
   files.aspect = aspect_of(options.picture, seen.value_or(scene::StereoMode::SideBySide));
-  auto stage = exhibit::load_exhibit(files);
-  if (!stage && stage.error().category == core::ErrorCategory::WrongUsage) {  // unusable materials in the session file
-    return core::failure(core::ErrorCategory::BadInputFile,
-                         fmt::format("session file {}: {}", options.session, stage.error().message));
-  }
+  auto stage = stage_of_session(*session, options.session, files);
   if (!stage) return tl::unexpected(stage.error());
-  const auto& materials = stage->materials.materials;
-  const auto found =
-      std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
-  if (found == materials.end()) {
-    return core::failure(
-        core::ErrorCategory::BadInputFile,
-        fmt::format(
-            "session file {}: its material \"{}\" is not in the material file; name the right file with --materials",
-            options.session, session->material));
-  }
-  std::vector<scene::SharedMeasuredCurve> recorded;
-  if (session->curve) recorded.push_back(*session->curve);
-  std::vector<curves::SampleModel> models;
-  for (const scene::MaterialEntry& entry : materials) {
-    auto one = entry.name == session->material ? curves::make_sample_model(entry, session->parameters, recorded)
-                                               : curves::make_sample_model(curves::ContactSetup{entry, {}, {}});
-    if (!one) return tl::unexpected(one.error());
-    models.push_back(std::move(*one));
-  }
+  const auto models = models_of_session(*session, *stage);
+  if (!models) return tl::unexpected(models.error());
   const auto at_ns = time_of(*session, options.at_s);
   if (!at_ns) return tl::unexpected(at_ns.error());
 
-  const auto material = static_cast<std::size_t>(found - materials.begin());
   const std::int64_t time_ns = *at_ns;
   std::optional<exhibit::ParticleTask> task;
   if (session->particles && !stage->particles->targets.empty()) task.emplace(*stage->particles);
@@ -315,8 +279,11 @@ core::Result<void> run_render(const RenderOptions& options) {
                                         .picture = replayed->picture ? &*replayed->picture : nullptr,
                                         .tiles = replayed->tiles};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
-  if (!session->wall.empty()) return draw_frame(*stage, models, *session, shown, time_ns, options);
-  return draw_replayed(*stage, models, *session, material, shown, time_ns, options);
+  if (!session->wall.empty()) return draw_frame(*stage, *models, *session, shown, time_ns, options);
+  const auto names = stage->materials.names();
+  const auto material =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), session->material) - names.begin());
+  return draw_replayed(*stage, *models, *session, material, shown, time_ns, options);
 }
 
 // Options for drawing a model.
@@ -365,6 +332,11 @@ void add_render_command(OptionList& program, const CommandContext& context) {
   command
       .add_flag("--analogy", options->analogy, "draw Millet's analogy, a magnet on a spring, instead of the instrument")
       .needs(session);
+  command
+      .add_option("--force-map", options->files.force_map,
+                  "file of the force map that the session felt whole, if it no longer lies where it was recorded")
+      .needs(session)
+      .type_name("FILE");
   command.add_option("--out", options->out, "PNG file to write").picture_file().type_name("FILE.png");
   const Option at = command
                         .add_option("--at", options->at_s,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/cluster/cluster_master.h"
+#include "app/commands/view_map.h"
 #include "app/commands/view_people.h"
 #include "app/display/instructor_window.h"
 #include "app/display/view_display.h"
@@ -254,23 +255,18 @@ bool taps_alone(const ViewOptions& options) {
          options.friction == physics::FrictionLaw::None;
 }
 
-// With a force map, --spring-constant is that of the lever that recorded it.
-core::Result<void> take_map_options(const ViewOptions& options, curves::TappedHand& tapping,
-                                    exhibit::ExhibitFiles& files) {
-  if (auto checked = check_vibration(options); !checked) return checked;
-  if (files.force_map.empty() || tapping.choice.mode != "contact") return {};
-  const std::string text = std::exchange(tapping.values["spring-constant"], {});
-  if (text.empty()) return {};
-  if (options.cluster.wanted)
-    return core::wrong_usage("--spring-constant of a force map does not reach the machines of --cluster; remove one");
-  return set_map_spring_constant(text, files);
-}
-
 core::Result<void> lay_particles(const ViewOptions& options, const exhibit::Stage& stage, scene::SharedModel& model) {
   if (options.level.level > 0 && options.cluster.wanted)
     return core::wrong_usage("--level of particles does not reach the machines of --cluster; remove one");
   if (stage.particles) model.particles = scene::shared_particles(*stage.particles);
   return scene::set_level(options.level, model.particles);
+}
+
+LiveFeatures features_of(ViewDisplay& display, ClusterMaster* cluster, std::optional<exhibit::LiveLesson>& guide) {
+  return {.headset = display.headset(),
+          .cluster = cluster,
+          .lesson = guide ? &*guide : nullptr,
+          .instructor = display.instructor()};
 }
 
 core::Result<void> check_lesson(const ViewLesson* lesson, const std::vector<curves::SampleModel>& materials) {
@@ -302,6 +298,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   settings.head_script = wand_choice->head_script;
   set_start(options, *stage, settings);
   if (auto set = set_people(options, *stage, settings); !set) return set;
+  if (auto kept = keep_map(*stage, files, settings); !kept) return kept;
   auto wand = ViewWand::open(*wand_choice, *stage, options.files.assets_dir, clock);
   if (!wand) return tl::unexpected(wand.error());
   auto model = exhibit::shared_model(stage->wall_scene.scene(), stage->wall_scene.sample_node(), materials,
@@ -322,10 +319,6 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
   };
   std::optional<exhibit::LiveLesson> guide;
   if (lesson != nullptr) guide.emplace(lesson->lesson, materials, stage->phrases(), lesson->study, clock);
-  const LiveFeatures features{.headset = (*display)->headset(),
-                              .cluster = cluster->get(),
-                              .lesson = guide ? &*guide : nullptr,
-                              .instructor = (*display)->instructor()};
   auto ran = run_live_window({.stage = *stage,
                               .materials = materials,
                               .windows = (*display)->windows(),
@@ -334,7 +327,7 @@ core::Result<void> run_view(const ViewOptions& options, const std::string& progr
                               .wand = **wand,
                               .clock = clock,
                               .start_servo = start_servo},
-                             settings, features);
+                             settings, features_of(**display, cluster->get(), guide));
   auto kept = guide ? guide->finish() : core::Result<void>{};
   if (!ran) return ran;
   if (!kept) return kept;

@@ -12,7 +12,6 @@
 
 #include "app/view/speech_choice.h"
 #include "exhibit/frame/exhibit_setup.h"
-#include "scene/shared/map_vibration.h"
 #include "servo/haptic_choice.h"
 #include "servo/keep_running.h"
 #include "servo/session_file.h"
@@ -39,6 +38,12 @@ core::Result<void> set_hand(const exhibit::Stage& stage, const std::string& devi
   const auto& materials = stage.materials.materials;
   const auto found =
       std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == session->material; });
+  const bool of_map = session->law_map || (session->curve && session->curve->column >= 0);
+  if (found == materials.end() && of_map) {
+    return core::wrong_usage(
+        fmt::format("the session {} was recorded over a force map: add --force-map and the options of the recording",
+                    choice->replay_file));
+  }
   if (found == materials.end()) {
     return core::failure(core::ErrorCategory::WrongUsage,
                          fmt::format("the session {} was recorded on {}, which is not on the wall: add --material {}",
@@ -63,21 +68,6 @@ core::Result<void> set_speech(bool wanted, const exhibit::Stage& stage, ViewSett
 }
 
 }  // namespace
-
-core::Result<void> check_vibration(const ViewOptions& options) {
-  if (options.files.map_vibration == scene::MapVibration::None) return {};
-  const auto choice = servo::parse_haptic_choice(options.servo.haptic_device);
-  if (!choice) return tl::unexpected(choice.error());
-  const bool recorded = !choice->replay_file.empty();
-  if (!recorded && (choice->device == nullptr || choice->device->vibrates)) return {};
-  std::string others;
-  for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
-    if (kind.vibrates) others += fmt::format("{}{}", others.empty() ? "" : ", ", kind.word);
-  }
-  return core::wrong_usage(fmt::format(
-      "--map-vibration: the profile of --haptics {} has no vibration; use one of {}, or leave --map-vibration out",
-      options.servo.haptic_device, others));
-}
 
 core::Result<void> set_people(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings) {
   if (auto set = set_hand(stage, options.servo.haptic_device, settings); !set) return set;

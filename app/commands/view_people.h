@@ -12,9 +12,6 @@ struct Stage;
 namespace afm::app {
 
 // Settings of whoever moves the hand, listens, or keeps the window open, from the options of `view`.
-// A map vibrates only on a device whose profile allows it; of the device of auto the servo decides.
-core::Result<void> check_vibration(const ViewOptions& options);
-
 core::Result<void> set_people(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings);
 
 }  // namespace afm::app

@@ -53,6 +53,7 @@ struct LiveWindow {
     servo.cite([&materials = given.materials](std::size_t material, const scene::SharedContact& felt) {
       return curves::felt_sources(materials[material].setup, felt);
     });
+    servo.set_force_map(settings.force_map);
     if (settings.unattended) panels.show_visitors_keys_only();
   }
   LiveWindow(const LiveWindow&) = delete;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 #include "app/view/servo_supervisor.h"
 #include "app/view/view_choice.h"
@@ -15,25 +16,16 @@
 #include "curves/curve_map.h"
 #include "curves/fitting/felt_map.h"
 #include "curves/force_volume.h"
-#include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/scan/map_picture.h"
-#include "exhibit/scan/map_relief.h"
-#include "exhibit/scan/scan_subject.h"
-#include "exhibit/scan/volume_view.h"
 #include "exhibit/state/moment.h"
 #include "physics/quantity_text.h"
 #include "scene/shared/map_vibration.h"
 #include "servo/servo_client.h"
+#include "servo/wall_frame.h"
 
 namespace afm::app {
 
 namespace {
-
-// Null if no map is felt whole, or if it has no curve to look at.
-const curves::ForceVolume* volume_of(const exhibit::Stage& stage) {
-  if (!stage.pixel || !stage.pixel->felt_map || !stage.pixel->felt_map->volume) return nullptr;
-  return stage.pixel->felt_map->volume->known() > 0 ? stage.pixel->felt_map->volume.get() : nullptr;
-}
 
 // 1, 2 or 5 times a power of ten, not above.
 double round_below(double value) {
@@ -52,15 +44,9 @@ void log_surface(const curves::ForceVolume& volume, double force_n) {
 
 }  // namespace
 
-struct MapControl::Laid {
-  exhibit::MapQuantity quantity{};
-  double release_z_m = 0;  // as in exhibit::WallState: the sample's size
-  exhibit::HeightRelief relief;
-};
-
 MapControl::MapControl(ViewParts& parts, std::optional<double> equal_force_n)
-    : parts_(parts), equal_force_n_(equal_force_n) {
-  const curves::ForceVolume* volume = volume_of(parts.stage);
+    : parts_(parts), equal_force_n_(equal_force_n), overlay_(parts.stage, parts.panels) {
+  const curves::ForceVolume* volume = MapOverlay::volume_of(parts.stage);
   if (volume == nullptr) return;
   if (equal_force_n_) {
     seen_ = first_ = Seen::Surface;
@@ -70,10 +56,8 @@ MapControl::MapControl(ViewParts& parts, std::optional<double> equal_force_n)
   }
 }
 
-MapControl::~MapControl() = default;
-
 void MapControl::next_volume() {
-  const curves::ForceVolume* volume = volume_of(parts_.stage);
+  const curves::ForceVolume* volume = MapOverlay::volume_of(parts_.stage);
   if (volume == nullptr) {
     return core::log_line(
         "force map: only one that is felt whole has a slice; start with --force-map FILE --fit SHAPE --felt map");
@@ -89,6 +73,12 @@ const curves::SampleModel* MapControl::map() const {
   if (!wall_.material || wall_.centerpiece != exhibit::Centerpiece::Instrument) return nullptr;
   const curves::SampleModel& sample = parts_.choice.felt()[*wall_.material];
   return sample.felt_map ? &sample : nullptr;
+}
+
+MapView MapControl::view() const {
+  MapView view{.slice = seen_ == Seen::Slice || seen_ == Seen::Both};
+  if (seen_ == Seen::Surface || seen_ == Seen::Both) view.equal_force_n = equal_force_n_;
+  return view;
 }
 
 // The controls before this one have decided what the wall shows.
@@ -110,35 +100,27 @@ void MapControl::check_vibration() {
                              core::printable_line(device.name.data())));
 }
 
-void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
+void MapControl::add_to_session(servo::WallFrame& shown) const {
   const curves::SampleModel* sample = map();
   if (sample == nullptr) return;
-  lay_colours(*sample, picture);
-  if (seen_ == Seen::Nothing || volume_of(parts_.stage) == nullptr) return;
-  if (!volume_) volume_ = std::make_unique<exhibit::VolumeView>(parts_.stage.wall_scene);
-  using Way = curves::ForceVolume::Way;
-  if (seen_ != Seen::Slice) volume_->add_surface(*sample, wall_, *equal_force_n_, picture);
-  if (seen_ == Seen::Surface) return;
-  volume_->add_slice(*sample, wall_, retracting_ ? Way::Retract : Way::Approach, picture);
+  parts_.panels.picture_of(*sample->pixel);
+  const scene::LawHere& here = parts_.servo.link().tip().here;
+  const MapView seen = view();
+  shown.map = servo::RecordedMapView{.quantity = std::string(exhibit::name_of(parts_.panels.map_quantity())),
+                                     .slice = seen.slice,
+                                     .equal_force_n = seen.equal_force_n,
+                                     .reduced_modulus_pa = here.reduced_modulus_pa,
+                                     .adhesion_j_per_m2 = here.adhesion_j_per_m2};
+}
+
+void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
+  const curves::SampleModel* sample = map();
+  if (sample != nullptr) overlay_.add_to(picture, *sample, wall_, retracting_, view());
 }
 
 void MapControl::restart(Restart what) {
   checked_ = false;
   if (what != Restart::Servo) seen_ = first_;
-}
-
-// Heights are those of the sample's own colours; an image, and the colours of key E, show them, too.
-void MapControl::lay_colours(const curves::SampleModel& map, render::FrameState& picture) {
-  if (wall_.scan || wall_.false_colours) return;
-  const render::MapPicture& shown = parts_.panels.picture_of(*map.pixel);
-  const exhibit::MapQuantity quantity = parts_.panels.map_quantity();
-  if (quantity == exhibit::MapQuantity::Height) return;
-  const double release_z_m = map.scaling.release_z_m();
-  if (!laid_ || laid_->quantity != quantity || laid_->release_z_m != release_z_m) {
-    const exhibit::ScanSubject subject = exhibit::scan_subject(parts_.stage.wall_scene, *wall_.material, map);
-    laid_ = std::make_unique<const Laid>(Laid{quantity, release_z_m, exhibit::map_relief(shown, map, subject)});
-  }
-  exhibit::lay_map(laid_->relief, shown, parts_.stage.wall_scene, wall_, picture);
 }
 
 }  // namespace afm::app

@@ -35,6 +35,7 @@ void ViewRecord::keep(const exhibit::Moment& now) {
   shown.stereo = scene::name_of(viewing.mode);
   shown.eyes_swapped = viewing.order == scene::EyeOrder::Swapped;
   shown.panels = parts_.panels.shown();
+  for (const ViewControl* control : parts_.controls) control->add_to_session(shown);
   parts_.servo.record(shown);
 }
 

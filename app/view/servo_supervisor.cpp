@@ -69,6 +69,10 @@ ServoSupervisor::~ServoSupervisor() = default;
 
 void ServoSupervisor::record(const servo::WallFrame& frame) { recorder_->add(frame); }
 
+void ServoSupervisor::set_force_map(std::optional<servo::RecordedForceMap> map) {
+  recorder_->set_force_map(std::move(map));
+}
+
 core::Result<void> ServoSupervisor::start() {
   if (!link_ && !record_folder_.empty()) {
     auto folder = servo::SessionFolder::open(record_folder_);

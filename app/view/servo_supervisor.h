@@ -80,6 +80,9 @@ class ServoSupervisor {
   const exhibit::CycleHistory& cycles() const { return cycles_; }
   const exhibit::FrictionHistory& friction() const { return friction_; }
   const exhibit::JumpCues& cues() const { return cues_; }
+  // File of the map that is felt whole, for the sessions.
+  void set_force_map(std::optional<servo::RecordedForceMap> map);
+
   void forget_cycles() {
     cycles_ = exhibit::CycleHistory(materials_);
     friction_ = {};

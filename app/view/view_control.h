@@ -14,7 +14,8 @@ struct Moment;
 }
 namespace afm::servo {
 struct FrameRecord;
-}
+struct WallFrame;
+}  // namespace afm::servo
 
 namespace afm::app {
 
@@ -61,6 +62,9 @@ class ViewControl {
 
   // The line of guidance, or empty. The first control with a line wins.
   virtual std::optional<std::string> guidance(const exhibit::Phrases& /*phrases*/) const { return std::nullopt; }
+
+  // Adds what a session keeps of the control, in addition to the moment; called while one is recorded.
+  virtual void add_to_session(servo::WallFrame& /*shown*/) const {}
 
   // Changes the picture after the panels have been added.
   virtual void add_to_picture(render::FrameState& /*picture*/, const ViewFrame& /*frame*/) {}

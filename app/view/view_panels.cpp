@@ -204,6 +204,12 @@ const render::MapPicture& ViewPanels::picture_of(const curves::MapCurve& pixel) 
   return picture_;
 }
 
+void ViewPanels::show_map_quantity(const curves::MapCurve& pixel, exhibit::MapQuantity quantity) {
+  picture_of(pixel);
+  quantity_ = quantity;
+  picture_ = exhibit::map_picture(*pixel.map, pixel.place, phrases(), quantity_);
+}
+
 void ViewPanels::next_map_picture() {
   if (!pictured_ || pictured_->fits().empty()) {
     return core::log_line("force map: only a fitted one has more pictures; start with --force-map FILE --fit SHAPE");

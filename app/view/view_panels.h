@@ -74,6 +74,8 @@ class ViewPanels {
   void next_map_picture();
   // The picture of a pixel's map with the pixel marked, and what it shows.
   const render::MapPicture& picture_of(const curves::MapCurve& pixel);
+  // Shows a quantity in it, as in a session.
+  void show_map_quantity(const curves::MapCurve& pixel, exhibit::MapQuantity quantity);
   exhibit::MapQuantity map_quantity() const { return quantity_; }
 
   void toggle_all() { hidden_ = !hidden_; }

@@ -245,6 +245,10 @@ class Fit:
     @property
     def W_interval(self) -> Optional[tuple[float, float]]: ...
     @property
+    def E_bootstrap_interval(self) -> Optional[tuple[float, float]]: ...
+    @property
+    def W_bootstrap_interval(self) -> Optional[tuple[float, float]]: ...
+    @property
     def contact_point(self) -> float: ...
     @property
     def level(self) -> float: ...
@@ -456,6 +460,7 @@ def fit(
     against: Optional[str] = ...,
     tilt: bool = ...,
     white_noise: bool = ...,
+    bootstrap: bool = ...,
     uncertainties: Mapping[str, float] = ...,
     contact_point: Optional[str] = ...,
     tip_radius: Optional[float] = ...,

@@ -159,6 +159,42 @@ TEST(NanoscopeCurve, SaysThatTheTipRested) {
               ElementsAre(HasSubstr("between approach and retract the tip rests for 2.5 s")));
 }
 
+// The hold follows both branches, in each channel or in none.
+TEST(NanoscopeCurve, LeavesOutAHold) {
+  constexpr int kHold = 7;
+  for (const int bytes : {2, 4}) {
+    Ramp ramp = usual();
+    ramp.bytes = bytes;
+    const RecordedCurve expected = read(ramp);
+    ramp.list += fmt::format("\\Hold Samples: {}\r\n\\Hold Time: 5\r\n", kHold);
+    ramp.channels.push_back({"Height Sensor", "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V", {}});
+    for (int i = 0; i < 2 * kPoints; ++i) ramp.channels[1].integers.push_back(300 * (i % kPoints));
+    const RecordedCurve without = read(ramp);
+    EXPECT_THAT(without.metadata.remarks, IsEmpty());
+    for (Channel& channel : ramp.channels) channel.integers.insert(channel.integers.end(), kHold, 777);
+    const RecordedCurve curve = read(ramp);
+    ASSERT_EQ(curve.points.size(), expected.points.size());
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      EXPECT_EQ(curve.points[i].force, expected.points[i].force) << i;
+      EXPECT_EQ(curve.points[i].z, without.points[i].z) << i;
+    }
+    EXPECT_THAT(curve.metadata.remarks,
+                ElementsAre("between approach and retract the tip rests for 5 s: 7 points there are left out"));
+  }
+}
+
+// As many points as both branches: the version of the file gives the size of its integers.
+TEST(NanoscopeCurve, MayHaveAHoldAsLongAsItsBranches) {
+  Ramp ramp = usual();
+  const RecordedCurve expected = read(ramp);
+  ramp.list += fmt::format("\\Hold Samples: {}\r\n", 2 * kPoints);
+  ramp.channels[0].integers.insert(ramp.channels[0].integers.end(), 2 * kPoints, 777);
+  const RecordedCurve curve = read(ramp);
+  ASSERT_EQ(curve.points.size(), expected.points.size());
+  EXPECT_EQ(curve.points[kPoints - 1].force, expected.points[kPoints - 1].force);
+  EXPECT_EQ(curve.points.back().force, expected.points.back().force);
+}
+
 TEST(NanoscopeCurve, TakesACalibrationThatItDoesNotHold) {
   Ramp ramp = usual();
   ramp.sensitivity.clear();
@@ -189,6 +225,14 @@ TEST(NanoscopeCurve, RefusesWhatItDoesNotUnderstand) {
     return refusal(file_of(ramp));
   };
   EXPECT_THAT(changed([](Ramp& r) { r.channels[0].integers.resize(60); }), HasSubstr("120 bytes, which are not two"));
+  for (const char* hold : {"21", "-1", "2.5", "nan", "1e12", "many"}) {
+    EXPECT_THAT(changed([&](Ramp& r) {
+                  r.list += fmt::format("\\Hold Samples: {}\r\n", hold);
+                  r.channels[0].integers.resize(2 * kPoints + 20);
+                }),
+                HasSubstr("cannot read the curve a.spm: it"))
+        << hold;
+  }
   EXPECT_THAT(changed([](Ramp& r) { r.channels[0].scale = "C none"; }), HasSubstr("no \"@4:Z scale\""));
   EXPECT_THAT(changed([](Ramp& r) { r.list.clear(); }), HasSubstr("neither a channel of the height nor"));
   EXPECT_THAT(changed([](Ramp& r) { r.list = "\\@Z scan size: V [Sens. Other] (1 V/LSB) 5 V\r\n"; }),

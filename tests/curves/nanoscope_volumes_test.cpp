@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "curves/curve_file.h"
@@ -35,7 +37,18 @@ struct Volume {
     return static_cast<int>(100 * row + 10 * column);
   };
   std::size_t curves = kCurves;
+  bool swings = false;  // its deflection counts the time in a period
 };
+
+// Header of a capture whose deepest point is 11.75 of 40 points after the beginning of a period.
+Volume capture() {
+  Volume volume;
+  volume.scan =
+      "\\PeakForce Capture: Allow\r\n\\Sync Distance: 1\r\n\\Sync Distance QNM: 23.5\r\n\\Sample Points: "
+      "80\r\n\\Peak Force Amplitude: 150\r\n";
+  volume.swings = true;
+  return volume;
+}
 
 void put_integer(std::string& data, int integer, int bytes) {
   if (bytes == 2) test::append_little(data, static_cast<std::int16_t>(integer));
@@ -61,7 +74,7 @@ std::string file_of(const Volume& volume) {
     for (std::size_t curve = 0; curve < volume.curves; ++curve) {
       for (int branch = 0; branch < 2; ++branch) {
         for (std::size_t point = 0; point < kPoints; ++point) {
-          put_integer(data, integer_at(curve, point), volume.bytes);
+          put_integer(data, integer_at(curve, branch, point), volume.bytes);
         }
       }
     }
@@ -71,10 +84,16 @@ std::string file_of(const Volume& volume) {
         "\\@4:Ramp size: V [Sens. Zsens] (0.0067 V/LSB) 50.0 V\r\n",
         offset, kFirst + data.size() - offset, kPoints, kPoints, name, scale);
   };
-  add_channel("Deflection Error", "V [Sens. DeflSens] (0.0003750 V/LSB) 24.576 V", deflection_at);
+  add_channel("Deflection Error", "V [Sens. DeflSens] (0.0003750 V/LSB) 24.576 V",
+              [&](std::size_t curve, int branch, std::size_t point) {
+                if (!volume.swings) return deflection_at(curve, point);
+                const std::size_t time = branch == 0 ? kPoints - 1 - point : kPoints + point;
+                return static_cast<int>(1000 * (curve + 1) + 10 * time);
+              });
   if (!volume.sensor_scale.empty()) {
-    add_channel("Height Sensor", volume.sensor_scale,
-                [](std::size_t curve, std::size_t point) { return static_cast<int>(1000 * (curve + 1) + 30 * point); });
+    add_channel("Height Sensor", volume.sensor_scale, [](std::size_t curve, int /*branch*/, std::size_t point) {
+      return static_cast<int>(1000 * (curve + 1) + 30 * point);
+    });
   }
   header += fmt::format(
       "\\*Ciao image list\r\n\\Data offset: {}\r\n\\Data length: {}\r\n\\Bytes/pixel: 2\r\n\\Samps/line: "
@@ -138,6 +157,52 @@ TEST(NanoscopeVolume, IsAForceMap) {
   EXPECT_EQ(map->pixels_with_curve(), kCurves);
   const std::vector<double> steps{100, 110, 120, 0, 10, 20};  // from the top
   for (std::size_t i = 0; i < kCurves; ++i) EXPECT_NEAR(map->heights_m()[i], kHeightStep_m * steps[i], 1e-15) << i;
+}
+
+// A period of PeakForce tapping begins with the approach, half a period before its deepest point.
+TEST(NanoscopeVolume, OfPeakForceTappingIsTurnedToItsDeepestPoint) {
+  constexpr double kTurn = 11.75, kAmplitude_m = 150e-9;
+  for (const std::size_t index : {0U, 5U}) {
+    const RecordedCurve curve = read(capture(), index);
+    ASSERT_EQ(curve.points.size(), 2 * kPoints);
+    const double lowest_m = kHeightStep_m * static_cast<double>(100 * (index / kColumns) + 10 * (index % kColumns));
+    for (std::size_t i = 0; i < 2 * kPoints; ++i) {
+      const std::size_t time = (32 + i) % (2 * kPoints);  // 8 points before the beginning: 11.75 - 20 = -8.25
+      const double turns = (static_cast<double>(i) - 8.0 - kTurn) / (2.0 * kPoints);
+      EXPECT_NEAR(curve.points[i].z.si, lowest_m + kAmplitude_m * (1.0 - std::cos(2.0 * M_PI * turns)), 1e-15) << i;
+      EXPECT_NEAR(curve.points[i].force.si, kLsb_v * kNewtonPerV * static_cast<double>(1000 * (index + 1) + 10 * time),
+                  1e-20)
+          << i;
+      EXPECT_EQ(curve.points[i].branch, i < kPoints ? physics::Branch::Approach : physics::Branch::Retract);
+    }
+    EXPECT_THAT(
+        curve.metadata.remarks,
+        testing::Contains(HasSubstr("a period of PeakForce tapping: its heights are those of a swing of 150 nm")));
+  }
+}
+
+TEST(NanoscopeVolume, OfPeakForceTappingHasTheOlderSyncDistanceWithoutThatOfQnm) {
+  Volume older = capture();
+  older.scan.replace(older.scan.find("\\Sync Distance QNM: 23.5"), 24, "\\Sync Distance New: 23.5");
+  const RecordedCurve curve = read(older, 0);
+  EXPECT_NEAR(curve.points[kPoints - 1].force.si, kLsb_v * kNewtonPerV * 1000.0, 1e-20) << "half a point after 0";
+}
+
+TEST(NanoscopeVolume, OfPeakForceTappingIsRefusedIfItsSwingIsUnknown) {
+  for (const auto& [key, text] :
+       {std::pair("\\Sync Distance QNM: 23.5", "\\Sync Distance QNM: many"),
+        std::pair("\\Sync Distance QNM: 23.5", "\\Sync Distance QNM: -5"),
+        std::pair("\\Sample Points: 80", "\\Sample Points: 0"), std::pair("\\Sample Points: 80", "\\Simple Points: 80"),
+        std::pair("\\Peak Force Amplitude: 150", "\\Peak Force Amplitude: 150 mm"),
+        std::pair("\\Peak Force Amplitude: 150", "\\Peak Force Amplitude: 150 V"),
+        std::pair("\\Peak Force Amplitude: 150", "\\Peak Force Amplitude: nan")}) {
+    Volume wrong = capture();
+    wrong.scan.replace(wrong.scan.find(key), std::string(key).size(), text);
+    EXPECT_THAT(refusal(wrong), HasSubstr("PeakForce capture")) << text;
+  }
+  Volume sensed = capture();
+  sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
+  EXPECT_THAT(refusal(sensed), HasSubstr("PeakForce tapping with a channel of the height"));
 }
 
 // From version 9.2 on, where integers of two bytes take four.
@@ -206,9 +271,6 @@ TEST(NanoscopeVolume, IsRefusedInOneLineIfItsCurvesAreNotUnderstood) {
   Volume stopped;
   stopped.curves = 4;
   EXPECT_THAT(refusal(stopped), HasSubstr("320 bytes, which are not 3 x 2 curves of two branches of 20 points"));
-  Volume swinging;
-  swinging.scan = "\\PeakForce Capture: Allow\r\n";
-  EXPECT_THAT(refusal(swinging), HasSubstr("those of PeakForce tapping"));
   for (const char* wrong :
        {"\\force/line: 0\r\n", "\\force/line: nan\r\n", "\\force/line: 1e30\r\n", "\\force/line: 2\r\n"}) {
     Volume damaged;
@@ -220,7 +282,7 @@ TEST(NanoscopeVolume, IsRefusedInOneLineIfItsCurvesAreNotUnderstood) {
 TEST(NanoscopeVolume, SurvivesAnyChangeOfItsHeader) {
   Volume sensed;
   sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
-  for (const Volume& volume : {Volume(), sensed}) {
+  for (const Volume& volume : {Volume(), sensed, capture()}) {
     const std::string file = file_of(volume);
     EXPECT_GT(test::read_after_damage(file, file.find('\x1a'), kCurves - 1), 1000);
   }

@@ -147,6 +147,24 @@ class Fits(Files):
                 self.assertEqual(analysis.as_dict(), expected)
                 self.assertEqual(fit.E, fit.as_dict()["modulus_Pa"])
 
+    def test_have_the_bootstrap_of_the_command(self):
+        sticky = self.made("sticky.h5", "--law", "jkr", "--work-of-adhesion", "0.1mJ/m2")
+        for path, model in ((self.made("gel.h5"), "sphere"), (sticky, "jkr")):
+            with self.subTest(model):
+                expected = json_of("analyse", str(path), "--fit", model, "--radius", "5um", "--bootstrap", "--json")["fit"]
+                curve = touchafm.read(path)[0]
+                fit = touchafm.fit(curve, model=model, tip_radius=5e-6, bootstrap=True)
+                self.assertEqual(fit.as_dict(), expected)
+                found = expected["bootstrap"]
+                self.assertEqual(list(fit.E_bootstrap_interval), found["modulus_95_percent_Pa"])
+                if model == "jkr":
+                    self.assertEqual(list(fit.W_bootstrap_interval), found["work_95_percent_J_per_m2"])
+                else:
+                    self.assertIsNone(fit.W_bootstrap_interval)
+                self.assertIsNone(touchafm.fit(curve, model=model, tip_radius=5e-6).E_bootstrap_interval)
+                with self.assertRaisesRegex(ValueError, "--bootstrap draws forces at known heights"):
+                    touchafm.fit(curve, model="sphere", tip_radius=5e-6, bootstrap=True, against="tip")
+
     def test_hold_the_truth_in_their_interval(self):
         curves, truth = touchafm.generate(count=20, **GEL)
         held = 0

@@ -60,7 +60,9 @@ RecordedSession slid(bool viscous = false, scene::MapVibration vibration = scene
 }
 
 TEST(ReplayOfAMap, GivesEveryBitAgain) {
-  const RecordedSession session = slid();
+  RecordedSession session = slid();
+  session.force_map = {
+      .file = "/data/\"rubber\".h5", .digest = "0123456789abcdef", .reading = R"({"fit":"jkr"})", .pixel = {3, 2}};
   EXPECT_NE(session.find(physics::EventKind::JumpToContact), nullptr);
   EXPECT_NE(session.find(physics::EventKind::JumpOffContact), nullptr);
   const support::ScratchFolder folder;
@@ -70,6 +72,7 @@ TEST(ReplayOfAMap, GivesEveryBitAgain) {
   ASSERT_TRUE(loaded->law_map);
   EXPECT_EQ(loaded->parameters.law_map, 1U);
   EXPECT_EQ(loaded->law_map->spacing_m, 10e-9);
+  EXPECT_EQ(loaded->force_map, session.force_map);
   EXPECT_EQ(loaded->law_map->ln_modulus, model_with_map().law_map.ln_modulus);
   EXPECT_EQ(loaded->law_map->adhesion_j_per_m2, model_with_map().law_map.adhesion_j_per_m2);
   expect_same(*loaded);

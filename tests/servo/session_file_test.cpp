@@ -245,6 +245,11 @@ TEST(SessionFile, CarriesWhatTheWallShowed) {
   frame.scan_changes = {{.frame = 0, .pixel = 0, .setpoint_n = 2e-9, .gain_per_s = 2000, .tip_radius_m = 1.0 / 3e8},
                         {.frame = 1, .pixel = 7, .setpoint_n = 1e-9, .apex_distance_m = 1e-8},
                         {.frame = 1, .pixel = 9, .setpoint_n = 0.8, .free_amplitude_m = 15e-9, .drive_hz = 299'850.0}};
+  frame.map = RecordedMapView{.quantity = "modulus",
+                              .slice = true,
+                              .equal_force_n = -1e-9 / 3.0,
+                              .reduced_modulus_pa = 1e7 / 3.0,
+                              .adhesion_j_per_m2 = 0.03};
   session.wall.push_back(frame);
   frame.wand.reset();
   frame.head.position_m = {0.3, 1.7, 2.0};

@@ -132,7 +132,8 @@ void read_nanoscope_date(std::string_view text, CurveMetadata& metadata) {
   metadata.time = fmt::format("{:02}{}", hours, words[0].substr(2));
 }
 
-CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks) {
+// `held` points of each curve are those of a hold.
+CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks, std::size_t held) {
   CurveMetadata metadata;
   metadata.software = "NanoScope";
   if (const auto version = nanoscope_version(blocks); version != 0)
@@ -145,7 +146,11 @@ CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks) {
     if (const auto* microscope = block.find("microscope"); microscope != nullptr && name == "equipment list") {
       metadata.instrument = *microscope;
     }
-    if (name == kForceList && block.find("reverse delay") != nullptr) {
+    if (name == kForceList && held > 0) {
+      const bool timed = block.find("hold time") != nullptr;
+      const double hold_s = timed ? nanoscope_number(block, "hold time") : 0.0;
+      remark_left_out(held, kBetweenBranches, "rests", hold_s > 0.0 ? std::optional(hold_s) : std::nullopt, metadata);
+    } else if (name == kForceList && block.find("reverse delay") != nullptr) {
       if (const double delay_s = nanoscope_number(block, "reverse delay"); delay_s > 0.0) {
         remark_left_out(0, kBetweenBranches, "rests", delay_s, metadata);
       }
@@ -160,6 +165,16 @@ CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks) {
 struct NanoscopeCurves::Signal {
   std::vector<double> extend, retract;
   std::size_t integer_size = 0;
+
+  // Begins a period of both at one of its points.
+  void begin_at(std::size_t first) {
+    std::vector<double> period = extend;
+    period.insert(period.end(), retract.begin(), retract.end());
+    std::rotate(period.begin(), period.begin() + static_cast<std::ptrdiff_t>(first), period.end());
+    const auto turn = period.begin() + static_cast<std::ptrdiff_t>(extend.size());
+    extend.assign(period.begin(), turn);
+    retract.assign(turn, period.end());
+  }
 };
 
 std::size_t NanoscopeCurves::Lengths::longer() const { return std::max(extend, retract); }
@@ -181,6 +196,18 @@ NanoscopeCurves::Lengths NanoscopeCurves::lengths_of(const NanoscopeBlock& chann
   return {trimmed(rest).empty() ? retract : length_in(take_number(rest)), retract};
 }
 
+// Points of the hold in each curve, of a channel that has them.
+std::size_t NanoscopeCurves::hold_of(const std::vector<NanoscopeBlock>& blocks) {
+  for (const NanoscopeBlock& block : blocks) {
+    if (lower_key(block.name) != kForceList || block.find("hold samples") == nullptr) continue;
+    const double points = nanoscope_number(block, "hold samples");
+    if (!(points >= 0.0 && points <= static_cast<double>(kMostCurvePoints)) || points != std::floor(points))
+      throw CurveError(fmt::format("its hold has {:g} points; 0 to {} are read", points, kMostCurvePoints));
+    return static_cast<std::size_t>(points);
+  }
+  return 0;
+}
+
 NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks_(nanoscope_blocks(bytes)) {
   const auto channels = force_channels(blocks_);
   deflection_ = channel_named(channels, {"deflection"});
@@ -195,26 +222,26 @@ NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks
   }
   sensor_ = channel_named(channels, {"height sensor", "zsensor", "z sensor"});
   lengths_ = lengths_of(*deflection_);
+  hold_ = hold_of(blocks_);
   volume_ = nanoscope_volume(bytes, blocks_);
   const double length = nanoscope_number(*deflection_, "data length");
-  const auto holds = [&](std::size_t curves, std::size_t size) {
-    return length == static_cast<double>(curves * 2 * lengths_.longer() * size);
-  };
   // a ramp may have the image beside it in which its place was chosen
-  if (holds(1, kIntegerSizes.front()) || holds(1, kIntegerSizes.back())) volume_.reset();
+  if (layout_of(*deflection_)) volume_.reset();
   if (!volume_) return;
-  for (const NanoscopeBlock& block : blocks_) {
-    const std::string_view* capture = block.find("peakforce capture");
-    if (capture != nullptr && *capture == "Allow") {
-      throw CurveError("its curves are those of PeakForce tapping, whose base swings; force volumes of ramps are read");
-    }
+  if (is_peakforce_capture(blocks_)) {
+    if (sensor_ != nullptr)
+      throw CurveError("its curves are those of PeakForce tapping with a channel of the height, which are not read");
+    // the second of its lengths may be wrong
+    lengths_.extend = lengths_.retract;
+    swing_ = nanoscope_swing(blocks_, 2 * lengths_.longer());
   }
   if (volume_->columns > 0 && volume_->rows > 0) {
     count_ = volume_->columns * volume_->rows;
     return;
   }
   // without a grid, as many as its data hold
-  const double curve = 2.0 * static_cast<double>(lengths_.longer() * nanoscope_integers(*deflection_, blocks_).size);
+  const auto curve =
+      static_cast<double>((2 * lengths_.longer() + hold_) * nanoscope_integers(*deflection_, blocks_).size);
   const double count = length / curve;
   if (!(count >= 1.0 && count <= static_cast<double>(kMostMapSide * kMostMapSide)) || count != std::floor(count)) {
     throw CurveError(fmt::format("its data are {:g} curves of two branches of {} points", count, lengths_.longer()));
@@ -222,30 +249,45 @@ NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks
   count_ = static_cast<std::size_t>(count);
 }
 
-std::size_t NanoscopeCurves::integer_size(const NanoscopeBlock& channel) const {
+// How the data of a channel are laid out; empty if they are no such curves. A hold is in all of its curves, or in none.
+std::optional<NanoscopeCurves::Layout> NanoscopeCurves::layout_of(const NanoscopeBlock& channel) const {
   const double length = nanoscope_number(channel, "data length");
-  const std::size_t points = 2 * lengths_.longer();
-  const auto size = std::find_if(kIntegerSizes.begin(), kIntegerSizes.end(), [&](std::size_t each) {
-    return length == static_cast<double>(count_ * points * each);
-  });
-  if (size != kIntegerSizes.end()) return *size;
+  std::vector<Layout> found;
+  for (const std::size_t hold : {hold_, std::size_t{0}}) {
+    for (const std::size_t size : kIntegerSizes) {
+      const Layout layout{.size = size, .points = 2 * lengths_.longer() + hold};
+      if (length == static_cast<double>(count_ * layout.points * size)) found.push_back(layout);
+    }
+    if (hold_ == 0) break;
+  }
+  if (found.size() > 1) {  // twice as many points, or bytes
+    const std::size_t size = nanoscope_integers(channel, blocks_).size;
+    std::erase_if(found, [&](const Layout& layout) { return layout.size != size; });
+  }
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+NanoscopeCurves::Layout NanoscopeCurves::known_layout(const NanoscopeBlock& channel) const {
+  if (const auto layout = layout_of(channel)) return *layout;
   const std::string curves =
       volume_ ? fmt::format("{} x {} curves of ", volume_->columns, volume_->rows) : std::string();
-  throw CurveError(
-      fmt::format("its channel {} has {:g} bytes, which are not {}two branches of {} points; ramps with a hold, and "
-                  "volumes that were stopped, are not read",
-                  nanoscope_channel(channel), length, curves, lengths_.longer()));
+  const std::string hold = hold_ > 0 ? fmt::format(", with {} points of a hold or without", hold_) : std::string();
+  throw CurveError(fmt::format(
+      "its channel {} has {:g} bytes, which are not {}two branches of {} points{}; volumes that were stopped are not "
+      "read",
+      nanoscope_channel(channel), nanoscope_number(channel, "data length"), curves, lengths_.longer(), hold));
 }
 
 NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, std::size_t index) const {
-  const std::size_t size = integer_size(channel), half = lengths_.longer();
+  const auto [size, points] = known_layout(channel);
+  const std::size_t half = lengths_.longer();
   const double offset = nanoscope_number(channel, "data offset");
   if (!(offset >= 0.0 && offset <= static_cast<double>(bytes_.size()))) throw CutShort("it is cut short");
-  const std::string_view all = part(bytes_, static_cast<std::size_t>(offset), count_ * 2 * half * size);
-  const std::string_view data = all.substr(index * 2 * half * size, 2 * half * size);
+  const std::string_view all = part(bytes_, static_cast<std::size_t>(offset), count_ * points * size);
+  const std::string_view data = all.substr(index * points * size, 2 * half * size);
   const double lowest = -0.5 * std::pow(256.0, static_cast<double>(size));
   const double lowest_of_two = has_two_bytes(channel) ? std::numeric_limits<std::int16_t>::min() : lowest;
-  const auto branch = [&](std::size_t first, std::size_t count) {
+  const auto branch = [&, size = size](std::size_t first, std::size_t count) {
     std::vector<double> values;
     values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -262,11 +304,18 @@ NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, s
   };
   Signal integers{branch(0, lengths_.extend), branch(half, lengths_.retract), size};
   std::reverse(integers.extend.begin(), integers.extend.end());
+  if (swing_) integers.begin_at(swing_->first());
   return integers;
 }
 
 // Heights of the base, falling while the tip approaches.
 NanoscopeCurves::Signal NanoscopeCurves::heights(std::size_t index) const {
+  if (swing_) {
+    std::vector<double> period = swing_->heights_m();
+    for (double& height_m : period) height_m += volume_->surface_m(index);
+    const auto turn = period.begin() + static_cast<std::ptrdiff_t>(lengths_.extend);
+    return {{period.begin(), turn}, {turn, period.end()}, 0};
+  }
   if (sensor_ == nullptr) {
     const double step_m = ramp_length_m(*deflection_, blocks_) / static_cast<double>(lengths_.longer());
     const double lowest_m = volume_ ? volume_->surface_m(index) : 0.0;
@@ -311,7 +360,8 @@ void NanoscopeCurves::place(std::size_t index, RecordedCurve& curve) const {
 }
 
 RecordedCurve NanoscopeCurves::curve(std::size_t index, const CurveReading& reading) const {
-  RecordedCurve curve{{}, {}, nanoscope_metadata(blocks_)};
+  const std::size_t held = known_layout(*deflection_).points - 2 * lengths_.longer();
+  RecordedCurve curve{{}, {}, nanoscope_metadata(blocks_, held)};
   const double per_volt = newton_per_volt(*deflection_, blocks_, reading, curve.metadata);
   const Signal volts = signal(*deflection_, index), z = heights(index);
   const double factor = value_per_integer(*deflection_, volts.integer_size) * per_volt;
@@ -331,6 +381,12 @@ RecordedCurve NanoscopeCurves::curve(std::size_t index, const CurveReading& read
   if (unrecorded > 0) {
     curve.metadata.remarks.push_back(fmt::format("{} of its {} points were not recorded: they are left out", unrecorded,
                                                  unrecorded + curve.points.size()));
+  }
+  if (swing_) {
+    curve.metadata.remarks.push_back(fmt::format(
+        "it is a period of PeakForce tapping: its heights are those of a swing of {:g} nm to either side, whose force "
+        "includes drag and inertia",
+        swing_->amplitude_m * 1e9));
   }
   place(index, curve);
   return curve;

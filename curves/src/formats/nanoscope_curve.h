@@ -10,6 +10,7 @@
 #include "curves/curve_file.h"
 #include "curves/recorded_curve.h"
 #include "formats/nanoscope_scan.h"
+#include "formats/nanoscope_swing.h"
 
 namespace afm::curves {
 
@@ -17,9 +18,11 @@ inline constexpr std::string_view kNanoscopeForceMagic = "\\*Force file list";
 
 // Curves of Bruker's Nanoscope (.spm, .000, .pfc), a single ramp or a force volume: a block "\*Ciao force image list"
 // per channel, whose data are, curve after curve, the extend, from the sample outwards, then the retract in the order
-// of time, in integers of two or four bytes. Points that were not recorded have the lowest integer. Of two lengths in
-// "\Samps/line" the first is the retract's. The heights are those of the sensor, otherwise evenly spaced over the ramp,
-// in a force volume above the height of the image at the curve's pixel. Throws CurveError.
+// of time, then a hold (as AtomicJ found by Bruker's own reader), in integers of two or four bytes. Points that were
+// not recorded have the lowest integer. Of two lengths in "\Samps/line" the first is the retract's. The heights are
+// those of the sensor, otherwise evenly spaced over the ramp, in a force volume above the height of the image at the
+// curve's pixel. A capture of PeakForce tapping has a period a curve (nanoscope_swing.h), which is turned so that it
+// begins half a period before the deepest point. Throws CurveError.
 class NanoscopeCurves {
  public:
   // The bytes must outlive the object.
@@ -38,10 +41,16 @@ class NanoscopeCurves {
     std::size_t extend = 0, retract = 0;
     std::size_t longer() const;
   };
+  struct Layout {
+    std::size_t size = 0;    // bytes of an integer
+    std::size_t points = 0;  // of a curve: both branches, and a hold
+  };
   struct Signal;
 
   static Lengths lengths_of(const NanoscopeBlock& channel);
-  std::size_t integer_size(const NanoscopeBlock& channel) const;
+  static std::size_t hold_of(const std::vector<NanoscopeBlock>& blocks);
+  std::optional<Layout> layout_of(const NanoscopeBlock& channel) const;
+  Layout known_layout(const NanoscopeBlock& channel) const;
   Signal signal(const NanoscopeBlock& channel, std::size_t index) const;
   Signal heights(std::size_t index) const;
   void place(std::size_t index, RecordedCurve& curve) const;
@@ -51,7 +60,9 @@ class NanoscopeCurves {
   const NanoscopeBlock* deflection_ = nullptr;
   const NanoscopeBlock* sensor_ = nullptr;  // height sensor; null: none
   Lengths lengths_;
+  std::size_t hold_ = 0;  // points of a hold, in channels that have it
   std::optional<NanoscopeVolume> volume_;
+  std::optional<NanoscopeSwing> swing_;  // PeakForce tapping; empty: ramps
   std::size_t count_ = 1;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -114,6 +115,12 @@ MapQuantity next_quantity(const curves::CurveMap& map, MapQuantity shown) {
 }
 
 std::string_view name_of(MapQuantity quantity) { return kQuantities[core::index_of(quantity)].name; }
+
+std::optional<MapQuantity> map_quantity_of(std::string_view name) {
+  const auto row = std::find_if(kQuantities.begin(), kQuantities.end(),
+                                [&](const QuantityRow& candidate) { return candidate.name == name; });
+  return row == kQuantities.end() ? std::nullopt : std::optional(row->quantity);
+}
 
 render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases,
                                MapQuantity quantity) {

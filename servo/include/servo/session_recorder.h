@@ -35,6 +35,9 @@ class SessionRecorder {
   void add(const scene::TipEvent& event);
   void add(const WallFrame& frame);
 
+  // The file of the map that every later session of a whole map was felt on.
+  void set_force_map(std::optional<RecordedForceMap> map) { force_map_ = std::move(map); }
+
   // Curves that were on the wall when the current session began.
   void set_earlier(std::vector<EarlierCurve> curves) { session_.earlier_curves = std::move(curves); }
 
@@ -62,6 +65,7 @@ class SessionRecorder {
   void take_scale(const scene::TipSample& sample, const scene::TipState& tip);
 
   RecordedSession session_;
+  std::optional<RecordedForceMap> force_map_;
   std::optional<RecordedSession> finished_;
   std::optional<scene::TipSample> previous_;
   std::optional<scene::TipEvent> put_;  // event of particles that were put somewhere, whose sample is still to come

@@ -103,6 +103,27 @@ constexpr void for_each_field(Visit&& visit, Record&... part) {
 }
 static_assert(scene::all_fields_described<RecordedHandPart>());
 
+// A map that is felt whole, and what is shown of its curves. SI.
+struct RecordedMapView {
+  std::string quantity{};  // of its picture: "modulus"
+  bool slice = false;
+  std::optional<double> equal_force_n{};  // of the surface; empty: none is shown
+  double reduced_modulus_pa = 0;          // below the tip, as in scene::LawHere
+  double adhesion_j_per_m2 = 0;
+
+  bool operator==(const RecordedMapView&) const = default;
+};
+
+template <class Visit, scene::RecordOf<RecordedMapView>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... map) {
+  visit("quantity", map.quantity...);
+  visit("slice", map.slice...);
+  visit("equal_force_N", map.equal_force_n...);
+  visit("reduced_modulus_Pa", map.reduced_modulus_pa...);
+  visit("adhesion_J_per_m2", map.adhesion_j_per_m2...);
+}
+static_assert(scene::all_fields_described<RecordedMapView>());
+
 // State of the wall in one frame. Together with the servo's tick at the same time, it determines the picture. Names are
 // those of the files and the command line; empty: none.
 struct WallFrame {
@@ -126,8 +147,9 @@ struct WallFrame {
   std::optional<RecordedScan> scan{};
   std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`
   std::optional<RecordedHandPart> scan_hand{};
-  std::optional<bool> false_colours{};  // colours of the sample's heights; absent from older files
-  std::optional<bool> stroboscope{};    // swing of a lever that taps, slowed down; absent from older files
+  std::optional<bool> false_colours{};   // colours of the sample's heights; absent from older files
+  std::optional<bool> stroboscope{};     // swing of a lever that taps, slowed down; absent from older files
+  std::optional<RecordedMapView> map{};  // absent from older files, and without such a map below the tip
 
   bool operator==(const WallFrame&) const = default;
 };
@@ -156,6 +178,7 @@ constexpr void for_each_field(Visit&& visit, Record&... frame) {
   visit("scan_hand", frame.scan_hand...);
   visit("false_colours", frame.false_colours...);
   visit("stroboscope", frame.stroboscope...);
+  visit("map", frame.map...);
 }
 static_assert(scene::all_fields_described<WallFrame>());
 

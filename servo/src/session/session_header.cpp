@@ -218,6 +218,10 @@ nlohmann::json header_of(const RecordedSession& session) {
     header["device"]["max_vibration_N"] = session.device.max_vibration_n;
   }
   if (!session.sources.empty()) header["sources"] = nlohmann::json::parse(session.sources);
+  if (const auto& map = session.force_map) {
+    header["force_map"] = {
+        {"file", map->file}, {"digest", map->digest}, {"reading", map->reading}, {"pixel", map->pixel}};
+  }
   if (!session.shown.empty()) header["shown"] = session.shown;
   if (!session.earlier_curves.empty()) header["earlier_curves"] = json_of(session.earlier_curves);
   core::name_software(header);
@@ -255,6 +259,12 @@ RecordedSession session_of(const nlohmann::json& header) {
     const auto pixel = measured->value("pixel", std::array<std::int32_t, 2>{-1, -1});
     curve.column = pixel[0];
     curve.row = pixel[1];
+  }
+  if (const auto map = header.find("force_map"); map != header.end()) {
+    session.force_map = {.file = map->at("file").get<std::string>(),
+                         .digest = map->at("digest").get<std::string>(),
+                         .reading = map->at("reading").get<std::string>(),
+                         .pixel = map->at("pixel").get<std::array<std::size_t, 2>>()};
   }
   if (const auto shown = header.find("shown"); shown != header.end()) shown->get_to(session.shown);
   if (const auto curves = header.find("earlier_curves"); curves != header.end()) {

@@ -116,7 +116,10 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo, c
   } else if (session_.parameters.height_field != scene::kNoHeightField) {
     session_.surface = model.height_fields[std::exchange(session_.parameters.height_field, 0)];
   }
-  if (session_.parameters.law_map != 0) session_.law_map = std::make_shared<scene::SharedLawMap>(model.law_map);
+  if (session_.parameters.law_map != 0) {
+    session_.law_map = std::make_shared<scene::SharedLawMap>(model.law_map);
+    session_.force_map = force_map_;
+  }
   if (scene::are_there(model.particles)) {
     const auto pages = servo.particle_pages();
     const auto tiles = servo.mark_tiles();

@@ -4,17 +4,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <thread>
 
+#include "core/whole_file.h"
 #include "servo/session_file.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
 #include "support/hertz_curve.h"
 #include "support/live_program.h"
+#include "support/pictures.h"
 #include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -74,6 +78,42 @@ class ViewForceMap : public ::testing::Test {
     return folder_.write("gel.jpk-force-map", test::stored_zip(test::jpk_map(test::sticky_curve)));
   }
 
+  // The moments of a session of the map, drawn again, beside a picture of its window.
+  void expect_film(const std::string& session_file, const std::string& map, const render::Image& saved) const {
+    const auto session = servo::load_session(session_file);
+    ASSERT_TRUE(session) << session.error().message;
+    ASSERT_TRUE(session->force_map);
+    EXPECT_EQ(session->force_map->file, map);
+    const auto draw = [&](double at_s, const std::string& more = "") {
+      return support::run_program(support::touchafm() + " render --size 640x480 --session " + session_file + " --at " +
+                                  std::to_string(at_s) + " --out " + folder_.file("moment.png") + more);
+    };
+    // the newest frame may show a tick that was no longer recorded
+    const double end_s =
+        session->seconds_since_start(std::min(session->wall.back().time_ns, session->samples.back().time_ns));
+    const auto end = draw(end_s);
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const render::Image last = test::read_png(folder_.file("moment.png"));
+    // the figures of the servo and of the depth meter differ
+    EXPECT_LT(test::difference(saved, last, 24).share_beyond, 0.04);
+    ASSERT_EQ(draw(0.0).exit_code, 0);
+    EXPECT_GT(test::difference(saved, test::read_png(folder_.file("moment.png")), 24).share_beyond, 0.04)
+        << "the slice, and the colours of the adhesion";
+
+    const std::string moved = folder_.file("moved.h5");
+    std::filesystem::rename(map, moved);
+    const auto missing = draw(end_s);
+    EXPECT_EQ(missing.exit_code, 3);
+    EXPECT_THAT(missing.err,
+                HasSubstr("its force map " + map + " is missing; give the place of the file with --force-map"));
+    ASSERT_EQ(draw(end_s, " --force-map " + moved).exit_code, 0);
+    EXPECT_EQ(test::difference(test::read_png(folder_.file("moment.png")), last, 0).largest, 0) << "the same bytes";
+    folder_.write("moved.h5", core::read_file(moved).value() + " ");
+    const auto changed = draw(end_s, " --force-map " + moved);
+    EXPECT_EQ(changed.exit_code, 3);
+    EXPECT_THAT(changed.err, HasSubstr(moved + " is not the force map that was felt, or has changed since"));
+  }
+
   support::ScratchFolder folder_;
   support::VirtualDisplay display_{kWidth, kHeight};
 };
@@ -117,6 +157,11 @@ TEST_F(ViewForceMap, IsFeltPixelByPixelAndReplayedBitForBit) {
     const auto drawn = support::run_program(support::touchafm() + " render --eye-width 64 --session " +
                                             file.path().string() + " --out " + folder_.file("moment.png"));
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    const auto needless =
+        support::run_program(support::touchafm() + " render --session " + file.path().string() + " --force-map " +
+                             folder_.file("gel.jpk-force-map") + " --out " + folder_.file("moment.png"));
+    EXPECT_EQ(needless.exit_code, 2);
+    EXPECT_THAT(needless.err, HasSubstr("--force-map: the hand of this session felt no whole map; leave it out"));
   }
   EXPECT_GE(first, 1U) << "no session of the pixel of the start touches";
   EXPECT_GE(second, 1U) << "no session of the chosen pixel touches";
@@ -175,6 +220,8 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
                              support::servo_mode(),
                              "--record",
                              folder_.file("whole"),
+                             "--pictures",
+                             folder_.path(),
                              "--validate"},
                             display_.name());
   ASSERT_TRUE(view.says("a hand that moves near the sample feels the adhesion as a vibration")) << view.said();
@@ -187,15 +234,21 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
   ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
   press(view, "F10", "a slice shows the forces along the tip's line");
   press(view, "F4", "the picture shows the adhesion");
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  xdotool("key F12");
+  ASSERT_TRUE(view.says("touchafm-001.png")) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
   int touched = 0;
+  std::string last;
   for (const auto& file : std::filesystem::directory_iterator(folder_.file("whole"))) {
     if (file.path().extension() != ".afms") continue;
     const auto session = servo::load_session(file.path());
     ASSERT_TRUE(session) << session.error().message;
     ASSERT_TRUE(session->law_map);
     if (session->find(physics::EventKind::JumpToContact) != nullptr) ++touched;
+    if (last.empty() || std::filesystem::last_write_time(file) > std::filesystem::last_write_time(last))
+      last = file.path();
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
     EXPECT_THAT(replayed.out, HasSubstr("felt over a viscous map of modulus and adhesion of 4 x 3 points"));
@@ -203,6 +256,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
   }
   EXPECT_GE(touched, 1) << "no session of the map touches";
+  expect_film(last, map, test::read_png(folder_.file("touchafm-001.png")));
 }
 
 TEST(ViewForceMapFiles, AreRefusedWithTheReason) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,11 @@ namespace afm::exhibit {
 // What the picture of a force map shows. All but the height need fits.
 enum class MapQuantity { Height, Modulus, Adhesion };
 
-// "modulus", for the log.
+// "modulus", for the log and for sessions.
 std::string_view name_of(MapQuantity quantity);
+
+// The quantity of that name; empty: none has it.
+std::optional<MapQuantity> map_quantity_of(std::string_view name);
 
 // The one with which a map begins: the modulus, if its curves were fitted.
 MapQuantity first_quantity(const curves::CurveMap& map);

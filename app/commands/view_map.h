@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/commands/view_command.h"
+#include "app/live/view_settings.h"
+#include "core/result.h"
+
+namespace afm::exhibit {
+struct Stage;
+}
+
+namespace afm::app {
+
+// Checks the options of the force map, and gives `files` those that it shares with tapping: with a force map,
+// --spring-constant is that of the lever that recorded it. A map vibrates only on a device whose profile allows it; of
+// the device of auto the servo decides.
+core::Result<void> take_map_options(const ViewOptions& options, curves::TappedHand& tapping,
+                                    exhibit::ExhibitFiles& files);
+
+// Names the file of a map that is felt whole, if sessions of it are recorded.
+core::Result<void> keep_map(const exhibit::Stage& stage, const exhibit::ExhibitFiles& files, ViewSettings& settings);
+
+}  // namespace afm::app

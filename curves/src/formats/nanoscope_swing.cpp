@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "formats/nanoscope_swing.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "bytes/scaled_unit.h"
+#include "bytes/text_table.h"
+#include "curves/curve_error.h"
+
+namespace afm::curves {
+
+namespace {
+
+constexpr double kMostSwingM = 1e-4, kMostSyncPoints = 1e6;
+
+// The text of a key of any block; null if none has it.
+const std::string_view* swing_text(const std::vector<NanoscopeBlock>& blocks, const std::string& key) {
+  for (const NanoscopeBlock& block : blocks) {
+    if (const std::string_view* text = block.find(key); text != nullptr) return text;
+  }
+  return nullptr;
+}
+
+// A number from the header of a capture, between these; `unit` gets the text behind it.
+double swing_number(const std::string_view* text, const char* key, double least, double most, std::string_view& unit) {
+  if (text == nullptr) throw CurveError(fmt::format("it is a PeakForce capture without \"{}\"", key));
+  unit = *text;
+  const auto number = take_number(unit);
+  if (!number || !(*number >= least && *number <= most)) {
+    throw CurveError(fmt::format("the \"{}\" of its PeakForce capture is \"{}\"", key, text->substr(0, 40)));
+  }
+  return *number;
+}
+
+}  // namespace
+
+std::size_t NanoscopeSwing::first() const {
+  return (static_cast<std::size_t>(std::floor(turn)) + 1 + points / 2) % points;
+}
+
+std::vector<double> NanoscopeSwing::heights_m() const {
+  const double half = 0.5 * static_cast<double>(points), begin = std::floor(turn) + 1.0 - half - turn;
+  std::vector<double> heights;
+  heights.reserve(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const double since_turn = begin + static_cast<double>(i);
+    heights.push_back(amplitude_m * (1.0 - std::cos(std::numbers::pi * since_turn / half)));
+  }
+  return heights;
+}
+
+bool is_peakforce_capture(const std::vector<NanoscopeBlock>& blocks) {
+  const std::string_view* text = swing_text(blocks, "peakforce capture");
+  return text != nullptr && lower_key(trimmed(*text)) == "allow";
+}
+
+NanoscopeSwing nanoscope_swing(const std::vector<NanoscopeBlock>& blocks, std::size_t points) {
+  std::string_view unit;
+  const double amplitude =
+      swing_number(swing_text(blocks, "peak force amplitude"), "Peak Force Amplitude", 1e-6, 1e9, unit);
+  const ScaledUnit scaled = scaled_unit(trimmed(unit));
+  const double amplitude_m = trimmed(unit).empty() ? amplitude * 1e-9 : amplitude * scaled.factor;
+  const bool is_length = trimmed(unit).empty() || scaled.unit == "m";
+  if (!is_length || !(amplitude_m <= kMostSwingM)) {
+    throw CurveError(fmt::format("the \"Peak Force Amplitude\" of its PeakForce capture is {:g} {}", amplitude,
+                                 trimmed(unit).substr(0, 20)));
+  }
+  const double in_period =
+      swing_number(swing_text(blocks, "sample points"), "Sample Points", 1.0, kMostSyncPoints, unit);
+  const std::string_view* sync = swing_text(blocks, "sync distance qnm");
+  if (sync == nullptr) sync = swing_text(blocks, "sync distance");
+  const double turn = swing_number(sync, "Sync Distance", 0.0, kMostSyncPoints, unit);
+  const auto count = static_cast<double>(points);
+  return {.amplitude_m = amplitude_m, .turn = std::fmod(turn * count / in_period, count), .points = points};
+}
+
+}  // namespace afm::curves
