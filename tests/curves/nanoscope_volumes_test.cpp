@@ -37,7 +37,7 @@ struct Volume {
     return static_cast<int>(100 * row + 10 * column);
   };
   std::size_t curves = kCurves;
-  bool swings = false;  // its deflection counts the time in a period
+  bool swings = false;  // deflection that counts the time in a period
 };
 
 // Header of a capture whose deepest point is 11.75 of 40 points after the beginning of a period.

@@ -18,7 +18,7 @@ namespace {
 struct ReadingNumber {
   const char* key;
   std::string_view option;
-  double (*get)(const FitOptions& options);  // not finite: not given
+  double (*get)(const FitOptions& options);  // value; not finite: not given
 };
 constexpr std::array kReadingNumbers{
     ReadingNumber{"radius_m", "radius",

@@ -260,7 +260,7 @@ std::optional<NanoscopeCurves::Layout> NanoscopeCurves::layout_of(const Nanoscop
     }
     if (hold_ == 0) break;
   }
-  if (found.size() > 1) {  // twice as many points, or bytes
+  if (found.size() > 1) {  // twice as many points, or twice as many bytes each
     const std::size_t size = nanoscope_integers(channel, blocks_).size;
     std::erase_if(found, [&](const Layout& layout) { return layout.size != size; });
   }

@@ -43,7 +43,7 @@ class NanoscopeCurves {
   };
   struct Layout {
     std::size_t size = 0;    // bytes of an integer
-    std::size_t points = 0;  // of a curve: both branches, and a hold
+    std::size_t points = 0;  // points of a curve: both branches, and a hold
   };
   struct Signal;
 

@@ -15,7 +15,7 @@ namespace afm::curves {
 struct NanoscopeSwing {
   double amplitude_m = 0;
   double turn = 0;         // time of the deepest point, in captured points; 0 to below `points`
-  std::size_t points = 0;  // captured in a period; even
+  std::size_t points = 0;  // captured points of a period; even
 
   // The captured point with which the approach begins, half a period before the deepest one.
   std::size_t first() const;

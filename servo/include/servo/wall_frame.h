@@ -105,10 +105,10 @@ static_assert(scene::all_fields_described<RecordedHandPart>());
 
 // A map that is felt whole, and what is shown of its curves. SI.
 struct RecordedMapView {
-  std::string quantity{};  // of its picture: "modulus"
+  std::string quantity{};  // quantity of its picture: "modulus"
   bool slice = false;
-  std::optional<double> equal_force_n{};  // of the surface; empty: none is shown
-  double reduced_modulus_pa = 0;          // below the tip, as in scene::LawHere
+  std::optional<double> equal_force_n{};  // force of the surface; empty: none is shown
+  double reduced_modulus_pa = 0;          // law below the tip, as in scene::LawHere
   double adhesion_j_per_m2 = 0;
 
   bool operator==(const RecordedMapView&) const = default;
@@ -149,7 +149,7 @@ struct WallFrame {
   std::optional<RecordedHandPart> scan_hand{};
   std::optional<bool> false_colours{};   // colours of the sample's heights; absent from older files
   std::optional<bool> stroboscope{};     // swing of a lever that taps, slowed down; absent from older files
-  std::optional<RecordedMapView> map{};  // absent from older files, and without such a map below the tip
+  std::optional<RecordedMapView> map{};  // map below the tip that is felt whole; absent from older files
 
   bool operator==(const WallFrame&) const = default;
 };
