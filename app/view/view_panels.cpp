@@ -157,7 +157,7 @@ ViewPanels::Told ViewPanels::follow(const cluster::ShownPanels& panels) {
 Pointed ViewPanels::pointed_at(const input::Ray& ray, const glm::dvec3& wall_point_m,
                                std::optional<std::size_t> material) {
   Pointed pointed{.control = {}, .tab = false, .swatch = {}, .point_m = wall_point_m};
-  const render::PanelPlacement panel = wall_scene_.places().parameters();
+  const render::PanelPlacement panel = right_place();
   const double millimetre_m = wall_scene_.panel_millimetre_m();
   if (keys_shown_) return pointed;
   if (const auto hit = material && right_ == RightPanel::Parameters && !hidden_
@@ -282,11 +282,16 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
   exhibit::add_forecast(parameters, phrases(), plot);
 }
 
-// Replaces the panel with the sample's data, or that of the particles.
+render::PanelPlacement ViewPanels::right_place() const {
+  const exhibit::WallPlaces& places = wall_scene_.places();
+  return places.far() ? places.far()->right : places.parameters();
+}
+
+// Replaces the panel with the sample's data, or that of the particles, where there is no room beyond it.
 template <class Content>
 void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
-  panels.data.placement = panels.particles.placement = render::kNoPlacement;
-  slot = {.content = std::move(content), .placement = wall_scene_.places().parameters()};
+  if (!wall_scene_.places().far()) panels.data.placement = panels.particles.placement = render::kNoPlacement;
+  slot = {.content = std::move(content), .placement = right_place()};
 }
 
 void ViewPanels::add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
@@ -336,6 +341,11 @@ void ViewPanels::add_to(render::FrameState& frame, const Pointed& pointed, std::
   render::FramePanels& panels = frame.panels;
   if (right_ == RightPanel::Sources && use_ != WallUse::Lesson) {
     panels.data.content.details = panels.particles.content.details = true;
+  }
+  const auto& far = wall_scene_.places().far();
+  if (far && right_ == RightPanel::Data && use_ == WallUse::Free && material) {
+    panels.particles = {.content = panels.data.content, .placement = far->right};
+    panels.particles.content.details = true;
   }
   if (covered()) {
     const render::PanelPlacement banner = panels.banner.placement;

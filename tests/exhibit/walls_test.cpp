@@ -250,6 +250,37 @@ bool covers(const Stage& stage, const render::FrameState& frame, const std::stri
   return false;
 }
 
+// The image of a scan is beside the curve, and no panel leaves the wall or covers another.
+TEST(EveryWall, HasTwoMorePlacesIfItIsWide) {
+  const auto stage = stage_on(support::source("assets/walls/wide.toml")).value();
+  const WallPlaces& wall = stage.wall_scene.places();
+  ASSERT_TRUE(wall.far());
+  render::FrameState frame;
+  wall.place_panels({.material = 0, .scan = true}, frame);
+  EXPECT_EQ(frame.panels.image.placement, wall.far()->left);
+  const std::array places{
+      place_of("far left", wall.far()->left, stage), place_of("force", frame.panels.force.placement, stage),
+      place_of("data", frame.panels.data.placement, stage), place_of("far right", wall.far()->right, stage)};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_GE(places[i].rectangle.low.x, i == 0 ? 0.0 : places[i - 1].rectangle.high.x) << places[i].name;
+    EXPECT_LE(places[i].rectangle.high.x, 1.0) << places[i].name;
+  }
+}
+
+// A viewer of a floor sees what leans towards him higher on the screen.
+TEST(EveryWall, ShowsLaserAndPhotodiodeBelowTheBanner) {
+  for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "floor", "wide"}) {
+    const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset)).value();
+    const render::FrameState frame = app::wall_subject(stage, kEyeWidth, app::WallMotion::Tip).value().frames[kFrame];
+    const Rectangle banner = seen(frame.panels.banner.placement, frame.eyes[0]);
+    for (const glm::dvec3& part : {kLaser, kPhotodiode}) {
+      const glm::dvec4 clip = frame.eyes[0].projection * frame.eyes[0].view *
+                              stage.wall_scene.places().room_from_layout() * glm::dvec4(part, 1.0);
+      EXPECT_GT(0.5 * (clip.y / clip.w + 1.0), banner.high.y) << preset;  // y down
+    }
+  }
+}
+
 TEST(EveryWall, ShowsTheColourScaleBesideTheSwatches) {
   const std::vector<std::string> names{"mica", "gold", "si3n4", "silica-air", "mica-air"};
   for (const char* preset : {"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "wide"}) {

@@ -2,6 +2,7 @@
 #include "exhibit/scenery/wall_layout.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -11,7 +12,15 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-WallShape wall_shape(const StagePlace& stage, std::size_t swatches) {
+namespace {
+
+// Highest points of laser and photodiode, of which the banner may hide little.
+constexpr double kTop = 0.3 * kPhotodiodeHalfSize;
+constexpr std::array kTops{dvec3(kLaser.x, kLaser.y + kTop, kLaser.z),
+                           dvec3(kPhotodiode.x, kPhotodiode.y + kTop, kPhotodiode.z)};
+
+// The largest scale for each arrangement, whatever the viewer sees from above.
+WallShape largest_shape(const StagePlace& stage, std::size_t swatches) {
   const double width_m = stage.main.width_m(), height_m = stage.main.height_m();
   if (stage.left && stage.right) {
     return {.arrangement = Arrangement::SideScreens,
@@ -27,6 +36,50 @@ WallShape wall_shape(const StagePlace& stage, std::size_t swatches) {
                         .unit_m = std::min(width_m / kNarrowWidth, height_m / narrow_height),
                         .room_below = kDeepRoomBelow};
   return beside.unit_m >= below.unit_m ? beside : below;
+}
+
+// Whether laser or photodiode is seen behind the banner. Before a floor they lean towards the viewer.
+bool banner_hides_top(const StagePlace& stage, const WallShape& shape) {
+  const Contact contact = contact_of(stage, shape);
+  if (contact.turn_rad == 0.0) return false;
+  const double unit = shape.unit_m;
+  const double highest = (stage.main.height_m() - contact.height_m) / unit - kBannerHeight - kPanelMargin;
+  const dvec3 eye = contact.to_eye_m / unit;
+  const dmat4 turn = glm::rotate(dmat4(1.0), contact.turn_rad, dvec3(1.0, 0.0, 0.0));
+  return std::any_of(kTops.begin(), kTops.end(), [&](const dvec3& top) {
+    const dvec3 place(turn * glm::dvec4(top, 1.0));
+    return place.z >= eye.z || eye.y + (place.y - eye.y) * eye.z / (eye.z - place.z) > highest;
+  });
+}
+
+}  // namespace
+
+Contact contact_of(const StagePlace& stage, const WallShape& shape) {
+  // in the middle, no higher than the eyes, and at their height above a deep shelf; moved to leave room above and
+  // below, but within the wall's middle third
+  const scene::Screen& screen = stage.main;
+  const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left), out = screen.normal();
+  const dvec3 up = glm::cross(out, right);
+  const bool narrow = shape.arrangement == Arrangement::Below, deep = shape.room_below > kRoomBelow;
+  const double eye_height = glm::dot(stage.viewer_m - screen.lower_left, up), third = screen.height_m() / 3.0;
+  const double lowest = std::max((narrow ? kRoomBelowPanels : shape.room_below) * shape.unit_m, third);
+  const double highest =
+      std::min(screen.height_m() - (narrow ? kRoomAboveNarrow : kRoomAbove) * shape.unit_m, 2.0 * third);
+  const double most = std::max(lowest, highest), middle = 0.5 * (lowest + most);
+  Contact contact{.height_m = std::clamp(deep ? eye_height : std::min(eye_height, middle), lowest, most)};
+  contact.place_m = screen.lower_left + 0.5 * screen.width_m() * right + contact.height_m * up;
+  contact.to_eye_m = glm::transpose(glm::dmat3(right, up, out)) * (stage.viewer_m - contact.place_m);
+  const double look = std::atan2(contact.to_eye_m.y, contact.to_eye_m.z);
+  if (look < -kLowestLookRad) contact.turn_rad = -look;
+  return contact;
+}
+
+WallShape wall_shape(const StagePlace& stage, std::size_t swatches) {
+  constexpr double kSmaller = 0.98, kLeast = 0.5;
+  WallShape shape = largest_shape(stage, swatches);
+  const double least_m = kLeast * shape.unit_m;
+  while (shape.unit_m > least_m && banner_hides_top(stage, shape)) shape.unit_m *= kSmaller;
+  return shape;
 }
 
 dmat4 frame_matrix(const dvec3& x, const dvec3& y, const dvec3& z, const dvec3& origin) {

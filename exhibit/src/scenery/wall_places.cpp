@@ -41,31 +41,16 @@ render::PanelPlacement in_frame(const glm::dmat4& room_from_frame, double left, 
 }  // namespace
 
 WallPlaces::WallPlaces(const StagePlace& stage, std::size_t swatches) {
-  // the contact point: in the middle, no higher than the eyes, and at their height above a deep shelf; moved to leave
-  // room above and below, but within the wall's middle third
   const scene::Screen& screen = stage.main;
   shape_ = wall_shape(stage, swatches);
   const double unit = shape_.unit_m;
-  const bool narrow = shape_.arrangement == Arrangement::Below;
-  const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left);
-  const dvec3 out = screen.normal();
-  const dvec3 up = glm::cross(out, right);
-  const double eye_height = glm::dot(stage.viewer_m - screen.lower_left, up);
-  const double third_m = screen.height_m() / 3.0;
-  const bool deep = shape_.room_below > kRoomBelow;
-  const double below = narrow ? kRoomBelowPanels : shape_.room_below;
-  const double lowest = std::max(below * unit, third_m);
-  const double highest = std::min(screen.height_m() - (narrow ? kRoomAboveNarrow : kRoomAbove) * unit, 2.0 * third_m);
-  const double most = std::max(lowest, highest), middle = 0.5 * (lowest + most);
-  const double contact_height = std::clamp(deep ? eye_height : std::min(eye_height, middle), lowest, most);
-  const dvec3 contact = screen.lower_left + 0.5 * screen.width_m() * right + contact_height * up;
-  room_from_wall_ = frame_matrix(unit * right, unit * up, unit * out, contact);
-  const dvec3 to_eye = glm::transpose(glm::dmat3(right, up, out)) * (stage.viewer_m - contact);
-  const double look = std::atan2(to_eye.y, to_eye.z);
+  const Contact contact = contact_of(stage, shape_);
+  const dvec3 right = glm::normalize(screen.lower_right - screen.lower_left), out = screen.normal();
+  room_from_wall_ = frame_matrix(unit * right, unit * glm::cross(out, right), unit * out, contact.place_m);
   room_from_layout_ =
-      look < -kLowestLookRad ? glm::rotate(room_from_wall_, -look, dvec3(1.0, 0.0, 0.0)) : room_from_wall_;
-  wall_top_ = (screen.height_m() - contact_height) / unit;
-  wall_bottom_ = -contact_height / unit;
+      contact.turn_rad == 0.0 ? room_from_wall_ : glm::rotate(room_from_wall_, contact.turn_rad, dvec3(1.0, 0.0, 0.0));
+  wall_top_ = (screen.height_m() - contact.height_m) / unit;
+  wall_bottom_ = -contact.height_m / unit;
   lay_out_front(stage);
   lay_out_panels(stage);
   lay_out_height_bar(stage, swatches);
@@ -107,10 +92,22 @@ void WallPlaces::lay_out_panels(const StagePlace& stage) {
     data_placement_ = in_wall(0.5 * kPanelMargin, kBelowBottom, width, kPanelHeight);
     return;
   }
-  if (shape_.arrangement == Arrangement::Beside) return beside();
+  if (shape_.arrangement == Arrangement::Beside) {
+    beside();
+    return lay_out_far_panels(stage);
+  }
   const dvec3 bottom(room_from_wall_ * glm::dvec4(0.0, kPanelBottom, 0.0, 1.0));
   force_placement_ = on_side_screen(*stage.left, true, bottom, shape_.unit_m);
   data_placement_ = on_side_screen(*stage.right, false, bottom, shape_.unit_m);
+}
+
+void WallPlaces::lay_out_far_panels(const StagePlace& stage) {
+  const double unit = shape_.unit_m, begin = half_width_, end = begin + kWidestPanel;
+  const dvec3 eye(glm::inverse(room_from_wall_) * glm::dvec4(stage.viewer_m, 1.0));
+  const bool fits = end + kPanelMargin <= 0.5 * stage.main.width_m() / unit;
+  if (!fits || std::atan2(end + std::abs(eye.x), eye.z) > kFarthestSightRad) return;
+  far_ = Far{.left = in_wall(-end, kPanelBottom, kWidestPanel, kPanelHeight),
+             .right = in_wall(begin, kPanelBottom, kWidestPanel, kPanelHeight)};
 }
 
 render::PanelPlacement WallPlaces::in_wall(double left, double bottom, double width, double height) const {
@@ -218,7 +215,9 @@ void WallPlaces::place_panels(const WallState& state, render::FrameState& frame)
                                     2.0 * (half_width_ - kPanelMargin), kBannerHeight);
   if (state.centerpiece == Centerpiece::Journey) return;
   const bool plot = state.centerpiece == Centerpiece::Plot;
-  (state.scan && !plot ? panels.image.placement : panels.force.placement) = plot ? finale() : force_placement_;
+  if (state.scan && !plot && far_) panels.image.placement = far_->left;
+  const bool in_place = state.scan && !plot && !far_;
+  (in_place ? panels.image.placement : panels.force.placement) = plot ? finale() : force_placement_;
   (state.particles != nullptr && !plot ? panels.particles.placement : panels.data.placement) = data_placement_;
 }
 

@@ -33,9 +33,13 @@ namespace view_panels_test {
 
 class PanelsOfTheView : public ::testing::Test {
  protected:
-  void SetUp() override {
+  void SetUp() override { load(""); }
+
+  void load(const std::string& wall) {
     exhibit::ExhibitFiles files;
     files.assets_dir = support::source("assets");
+    files.wall = wall;
+    models_.clear();
     auto stage = exhibit::load_exhibit(files);
     ASSERT_TRUE(stage) << stage.error().message;
     stage_.emplace(std::move(*stage));
@@ -127,6 +131,27 @@ TEST_F(PanelsOfTheView, AreHiddenWithTheirButtonsAndTheNote) {
     EXPECT_NE(hidden.panels.banner.placement, render::kNoPlacement) << "whether a force is on is always to be seen";
     EXPECT_FALSE(pointed_at(stage_->wall_scene.places().parameter_tab()).tab) << "nobody clicks what is hidden";
   }
+}
+
+// What replaces the data elsewhere is beside them, and until then their sources are.
+TEST_F(PanelsOfTheView, UseTheFarEndOfAWideWall) {
+  EXPECT_FALSE(stage_->wall_scene.places().far());
+  load(support::source("assets/walls/wide.toml"));
+  ASSERT_TRUE(stage_->wall_scene.places().far());
+  const render::PanelPlacement far = stage_->wall_scene.places().far()->right;
+  const render::FrameState idle = frame("");
+  const render::PanelPlacement data = idle.panels.data.placement;
+  EXPECT_NE(data, render::kNoPlacement);
+  EXPECT_EQ(idle.panels.particles.placement, far);
+  EXPECT_TRUE(idle.panels.particles.content.details);
+  EXPECT_EQ(idle.panels.particles.content.title, idle.panels.data.content.title);
+  panels_->show("parameters");
+  const render::FrameState open = frame("");
+  EXPECT_EQ(open.panels.data.placement, data);
+  EXPECT_EQ(open.panels.control.placement, far);
+  EXPECT_EQ(open.panels.particles.placement, render::kNoPlacement);
+  panels_->toggle_all();
+  EXPECT_EQ(frame("").panels.control.placement, render::kNoPlacement);
 }
 
 TEST_F(PanelsOfTheView, ShowThePushInThePlaceOfTheData) {

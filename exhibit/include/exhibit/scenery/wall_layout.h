@@ -123,6 +123,7 @@ inline constexpr double kRoomAboveNarrow = 0.5 * kRoomBelowPanels;
 inline constexpr double kNarrowWidth = 1.75;  // width of a composition without panels at its sides
 inline constexpr double kWidestPanel = 1.6 * kPanelHeight;
 inline constexpr double kWidestPlot = 2.0 * kPanelInnerEdge + 0.724;  // the finale's, as in the paper
+inline constexpr double kFarthestSightRad = 0.80;                     // of a panel: a turn of head and eyes
 inline constexpr double kCornerGap = 0.10;                            // from the corner of two screens to a panel
 
 // The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
@@ -139,11 +140,21 @@ struct WallShape {
 
 // The arrangement that allows the largest scale. Uses the side screens if there are two. The shelf is in front of the
 // plate if `swatches` fit in one row and the screens do not surround the viewer.
+// Smaller before a floor, where the banner would hide the instrument's upper end.
 WallShape wall_shape(const StagePlace& stage, std::size_t swatches = kFrontSwatches);
 
 // Elevation of the view, radians, below which only the sample's edge would be visible, as in front of a floor screen.
 // Below it, instrument and shelf are rotated to look as from the paper's wall.
 inline constexpr double kLowestLookRad = 0.35;
+
+// The point where the tip meets the sample.
+struct Contact {
+  double height_m = 0;       // above the screen's lower edge
+  glm::dvec3 place_m{0.0};   // in the room
+  glm::dvec3 to_eye_m{0.0};  // in the screen's axes: right, up, out
+  double turn_rad = 0;       // of the layout about the screen's x axis, towards a viewer far above; 0: upright
+};
+Contact contact_of(const StagePlace& stage, const WallShape& shape);
 
 // Matrix with axes and origin as columns.
 glm::dmat4 frame_matrix(const glm::dvec3& x, const glm::dvec3& y, const glm::dvec3& z, const glm::dvec3& origin);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "exhibit/scenery/stage_place.h"
 #include "exhibit/scenery/wall_layout.h"
@@ -34,6 +35,13 @@ class WallPlaces {
 
   glm::dvec3 wand_grip_m() const;
 
+  // Places beyond the two panels, where the wall is wide enough and the viewer need not turn far: of the images of a
+  // scan, and of whatever is in place of the data elsewhere.
+  struct Far {
+    render::PanelPlacement left, right;
+  };
+  const std::optional<Far>& far() const { return far_; }
+
   // Panel of a material's parameters, in place of its data, and the target that opens it.
   render::PanelPlacement parameters() const;
   render::PanelPlacement parameter_tab() const;
@@ -61,6 +69,7 @@ class WallPlaces {
  private:
   void lay_out_front(const StagePlace& stage);
   void lay_out_panels(const StagePlace& stage);
+  void lay_out_far_panels(const StagePlace& stage);
   void lay_out_height_bar(const StagePlace& stage, std::size_t swatches);
   render::PanelPlacement finale() const;  // the large plot
   render::PanelPlacement right_of_data(double inset) const;
@@ -75,6 +84,7 @@ class WallPlaces {
   double height_bar_x_ = 0;
   glm::dvec3 wand_grip_{0.0};
   render::PanelPlacement force_placement_, data_placement_;
+  std::optional<Far> far_;
 };
 
 }  // namespace afm::exhibit
