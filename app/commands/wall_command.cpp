@@ -229,7 +229,7 @@ core::Result<void> draw_test_pattern(const scene::Wall& wall, const WallOptions&
   auto drawing = exhibit::WallDrawing::open(wall, picture);
   if (!drawing) return tl::unexpected(drawing.error());
   const scene::Scene scene = nothing();
-  const double millimetre_m = 1e-3 * exhibit::wall_shape({.main = drawing->plan().outputs.front().screen}).unit_m;
+  const double millimetre_m = 1e-3 * exhibit::wall_shape(exhibit::stage_place(wall)).unit_m;
   const double ipd_m = options.picture.ipd_m.value_or(wall.viewers.front().ipd_m);
   const auto build = [&](const exhibit::OutputPicture& output, const std::array<scene::EyeView, 2>& eyes) {
     render::FrameState frame;

@@ -103,13 +103,8 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
 
   std::size_t events_logged = 0;
   int restarts = 0;
-  bool renewed = false;
   while (person_.step() != input::SimulatedPerson::Step::Done) {
     if (auto stepped = step(result); !stepped) return tl::unexpected(stepped.error());
-    if (!renewed && person_.step() == input::SimulatedPerson::Step::Lift && is_unrecorded(material)) {
-      servo_.change(material, materials_[material].parameters);
-      renewed = true;
-    }
     if (person_.restarts() != restarts) {
       restarts = person_.restarts();
       if (restarts > kMostServosLost) {
@@ -142,13 +137,6 @@ core::Result<servo::RecordedSession> Demonstration::feel(std::size_t material, e
   session.material = materials_[material].setup.material.name;
   session.sources = curves::felt_sources(materials_[material].setup, session.parameters);
   return session;
-}
-
-// A session of a lever that oscillates begins only where its contact does. The first one's has begun unseen where the
-// hand was high above the sample, so it is made anew.
-bool Demonstration::is_unrecorded(std::size_t material) const {
-  const curves::SampleModel& felt = materials_[material];
-  return (felt.dynamic() || felt.taps()) && recorder_->session().samples.empty();
 }
 
 core::Result<void> Demonstration::keep_patience(const std::string& title, double step_seconds,

@@ -67,7 +67,6 @@ class Demonstration {
                                             const Progress& progress);
   core::Result<servo::RecordedSession> feel_variation(std::size_t material, const curves::SampleModel& variation,
                                                       exhibit::DemoResult& result, const Progress& progress);
-  bool is_unrecorded(std::size_t material) const;
   core::Result<void> keep_patience(const std::string& title, double step_seconds,
                                    const exhibit::DemoResult& result) const;
   core::Result<void> step(exhibit::DemoResult& result);

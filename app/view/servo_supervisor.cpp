@@ -134,6 +134,7 @@ void ServoSupervisor::update(std::int64_t now_ns) {
         if (const std::string text = log_text(event, link_->model().particles); !text.empty()) core::log_line(text);
         for (const auto& hears : hears_events_) hears(event);
       });
+  if (link_->tip().material < 0 && polled->samples.empty()) recorder_->has_no_contact();
   keep_part(now_ns);
   log_state();
 }

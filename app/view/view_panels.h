@@ -133,7 +133,7 @@ class ViewPanels {
   void add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material);
   void add_right(render::FramePanels& panels, const Pointed& pointed, std::size_t material,
                  const std::string& material_title, const scene::TipState& tip);
-  render::PanelPlacement right_place() const;  // of the panel that replaces the data, or is beside them
+  render::PanelPlacement right_place() const;  // place of the panel that replaces the data, or is beside them
   template <class Content>
   void show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const;
   template <class Copy, class Panels, class Shown>

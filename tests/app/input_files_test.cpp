@@ -100,6 +100,7 @@ const std::vector<Input> kInputs{
     {"render", "--probe", "--out $OUT --journey 4 --probe @", ".glb"},
     {"render", "--sample", "--out $OUT --journey 4 --sample @", ".glb"},
     {"render", "--session", "--out $OUT --session @ --at 1", ".afms"},
+    {"render", "--force-map", "--out $OUT --session $SESSION --at 1 --force-map @", ".h5"},
     {"render", "--gltf", "--out $OUT --gltf @", ".glb"},
     {"replay", "session", "@", ".afms"},
     {"wall", "file", "@"},
@@ -194,6 +195,7 @@ TEST_P(InputFile, IsRefusedAtOnceByEveryCommandAndOption) {
     replace(words, "$WALL", support::source("assets/walls/powerwall.toml"));
     replace(words, "$LESSON", support::source("assets/lessons/first-touch.toml"));
     replace(words, "$CURVE", curve);
+    replace(words, "$SESSION", support::source("tests/fuzz/corpus/session/plans.afms"));
     // a minute ends one that waits; every other needs a fraction of a second
     const std::string command = support::touchafm() + " " + input.command + " " + words;
     const auto done = support::run_program("DISPLAY= timeout -k 5 60 " + command + " </dev/null");

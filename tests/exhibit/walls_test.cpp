@@ -27,7 +27,6 @@
 #include "exhibit/scenery/stage_place.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "render/depth_meter.h"
-#include "support/deep.h"
 #include "support/pictures.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
@@ -368,47 +367,6 @@ TEST_F(DepthOfAWall, StaysWithinOneDegreeOnEveryPreset) {
     EXPECT_GT(ipd_m, 0.4 * viewer.ipd_m) << preset << ": hardly any depth is left";
     const DepthReport report = report_depth(range, distance_m, ipd_m, Relief::NarrowEyes);
     EXPECT_FALSE(report.hard) << preset << ": " << depth_text(report, stage->phrases());
-  }
-}
-
-using PixelsOfAWall = test::VulkanTest;
-
-// In a cycle most of the wall stays as it is: what is drawn of it gives the bytes of drawing all of it.
-TEST_F(PixelsOfAWall, AreRedrawnWhereTheTipMovesAndAsIfAllWere) {
-  const auto stage = stage_on(support::source("assets/walls/desk-red-cyan.toml"));
-  ASSERT_TRUE(stage) << stage.error().message;
-  const auto subject = app::wall_subject(*stage, 960, app::WallMotion::Tip).value();
-  render::RendererOptions drawing = subject.drawing;
-  auto changes = make_renderer(subject.scene, drawing);
-  drawing.redraw = render::Redraw::Everything;
-  auto everything = make_renderer(subject.scene, drawing);
-  constexpr std::size_t kSettling = 2;
-  const std::size_t frames = support::deep() ? 12 : 6;
-  double redrawn = 0;
-  for (std::size_t i = 0; i < frames; ++i) {
-    changes.render(subject.frames[i]);
-    everything.render(subject.frames[i]);
-    if (i >= kSettling) redrawn += changes.redrawn_share();
-    for (const scene::Eye eye : scene::kEyes) {
-      ASSERT_EQ(test::where_differ(changes.read_eye(eye), everything.read_eye(eye)), "")
-          << "frame " << i << ", eye " << static_cast<int>(eye);
-    }
-    const render::Composition anaglyph{.mode = scene::StereoMode::AnaglyphRedCyan};
-    ASSERT_EQ(test::where_differ(changes.read_composed(anaglyph), everything.read_composed(anaglyph)), "")
-        << "frame " << i;
-  }
-  EXPECT_LT(redrawn / static_cast<double>(frames - kSettling), 0.7);
-}
-
-TEST_F(PixelsOfAWall, MayBeFewAndMany) {
-  const support::ScratchFolder folder;
-  const auto stage = stage_on(folder.write("wall.toml", wall_text(7.0, 2.0, 0.5, 63.0, {0.0, 1.65, 4.0})));
-  for (const double texels_per_m : {1.0, 20.0, 1e5}) {
-    auto subject = app::wall_subject(*stage, 16, app::WallMotion::Tip).value();
-    subject.drawing.panel_texels_per_m = texels_per_m;
-    auto renderer = make_renderer(subject.scene, subject.drawing);
-    renderer.render(subject.frames.front());
-    renderer.wait();
   }
 }
 

@@ -106,7 +106,7 @@ TEST(SessionFile, KeepsTheSourcesOfItsParameters) {
   RecordedSession session = example();
   session.sources = R"({"tip_radius":{"estimated":false,"source":"Liu & Peng, Table 1","value":"50 nm"}})";
   ASSERT_TRUE(save_session(session, folder.file("s.afms")));
-  EXPECT_EQ(load_session(folder.file("s.afms")).value().sources, session.sources);
+  EXPECT_EQ(load_session(folder.file("s.afms"))->sources, session.sources);
   session.sources = R"({"tip_radius":{"estimated":true,"source":null,"value":"50 nm"}})";
   ASSERT_TRUE(save_session(session, folder.file("d.afms")));
   EXPECT_THAT(error_of(folder.file("d.afms")), HasSubstr("its header is damaged"));
@@ -245,11 +245,7 @@ TEST(SessionFile, CarriesWhatTheWallShowed) {
   frame.scan_changes = {{.frame = 0, .pixel = 0, .setpoint_n = 2e-9, .gain_per_s = 2000, .tip_radius_m = 1.0 / 3e8},
                         {.frame = 1, .pixel = 7, .setpoint_n = 1e-9, .apex_distance_m = 1e-8},
                         {.frame = 1, .pixel = 9, .setpoint_n = 0.8, .free_amplitude_m = 15e-9, .drive_hz = 299'850.0}};
-  frame.map = RecordedMapView{.quantity = "modulus",
-                              .slice = true,
-                              .equal_force_n = -1e-9 / 3.0,
-                              .reduced_modulus_pa = 1e7 / 3.0,
-                              .adhesion_j_per_m2 = 0.03};
+  frame.map = RecordedMapView{"modulus", true, -1e-9 / 3.0, 1e7 / 3.0, 0.03};
   session.wall.push_back(frame);
   frame.wand.reset();
   frame.head.position_m = {0.3, 1.7, 2.0};

@@ -86,7 +86,7 @@ class Axes {
     panel.force_max_nn = kAxisAbove * a0_nm_;
   }
 
-  bool of_amplitude() const { return a0_nm_ > 0.0; }  // of a lever that taps
+  bool of_amplitude() const { return a0_nm_ > 0.0; }  // true of a lever that taps
 
  private:
   double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0, a0_nm_ = 0.0;

@@ -132,7 +132,7 @@ class Panels {
   const Device& device_;
   RendererOptions options_;
   double largest_texture_;  // each way
-  FontFiles font_files_;    // until the glyphs are drawn
+  FontFiles font_files_;    // empty once the glyphs are drawn
   vk::raii::DescriptorSetLayout texture_layout_;
   vk::raii::PipelineLayout canvas_layout_;
   vk::raii::PipelineLayout rectangle_layout_;

@@ -39,7 +39,7 @@ struct RecordedParticles {
 struct RecordedSession {
   std::string material;             // name in the material file
   scene::SharedContact parameters;  // parameters in effect; a replay has one curve and one surface at most
-  std::string sources{};            // of the parameters, curves::felt_sources(); empty: a file of 0.2.0 or older
+  std::string sources{};  // sources of the parameters, curves::felt_sources(); empty: a file of 0.2.0 or older
   std::optional<scene::SharedMeasuredCurve> curve;     // Law::Measured only
   std::optional<scene::SharedHeightField> surface;     // none: a topography, or a plane
   scene::Topography topography;                        // without columns: none

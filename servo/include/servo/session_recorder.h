@@ -35,6 +35,10 @@ class SessionRecorder {
   void add(const scene::TipEvent& event);
   void add(const WallFrame& frame);
 
+  // The servo has no contact, and all of its samples were added: the next one is a contact's first. So is that of a new
+  // servo.
+  void has_no_contact() { first_ = true; }
+
   // The file of the map that every later session of a whole map was felt on.
   void set_force_map(std::optional<RecordedForceMap> map) { force_map_ = std::move(map); }
 
@@ -71,6 +75,7 @@ class SessionRecorder {
   std::optional<scene::TipEvent> put_;  // event of particles that were put somewhere, whose sample is still to come
   ReachedPlaces places_;                // places in the current session
   std::size_t ticks_ = 0;               // ticks in the current session
+  bool first_ = true;                   // the next sample is a contact's first
   bool scale_known_ = false;
 };
 

@@ -54,7 +54,8 @@ bool SessionRecorder::add(const TipSample& sample, const ServoClient& servo, con
   const bool taken_back = put && put->kind == physics::EventKind::PushTakenBack;
   if (!goes_on_with(sample) || (taken_back && !places_.take_back_to(sample.push.digest))) finish();
   const bool begins = ticks_ == 0;
-  const bool fresh = previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1;
+  const bool first = std::exchange(first_, false) && servo.lost_samples() == 0;
+  const bool fresh = first || (previous_ && !same_contact(*previous_, sample) && sample.tick == previous_->tick + 1);
   previous_ = sample;
   const auto is_dynamic = [&] {
     const auto& felt = servo.parameters(static_cast<std::size_t>(sample.material), sample.edit_revision);

@@ -85,7 +85,7 @@ class ViewForceMap : public ::testing::Test {
     ASSERT_TRUE(session->force_map);
     EXPECT_EQ(session->force_map->file, map);
     const auto draw = [&](double at_s, const std::string& more = "") {
-      return support::run_program(support::touchafm() + " render --size 640x480 --session " + session_file + " --at " +
+      return support::run_program(support::touchafm() + " render --size 320x240 --session " + session_file + " --at " +
                                   std::to_string(at_s) + " --out " + folder_.file("moment.png") + more);
     };
     // the newest frame may show a tick that was no longer recorded
@@ -100,7 +100,9 @@ class ViewForceMap : public ::testing::Test {
     EXPECT_GT(test::difference(saved, test::read_png(folder_.file("moment.png")), 24).share_beyond, 0.04)
         << "the slice, and the colours of the adhesion";
 
-    const std::string moved = folder_.file("moved.h5");
+    std::filesystem::create_directory(folder_.file("elsewhere"));
+    const std::string name = "elsewhere/" + std::filesystem::path(map).filename().string();
+    const std::string moved = folder_.file(name);
     std::filesystem::rename(map, moved);
     const auto missing = draw(end_s);
     EXPECT_EQ(missing.exit_code, 3);
@@ -108,7 +110,7 @@ class ViewForceMap : public ::testing::Test {
                 HasSubstr("its force map " + map + " is missing; give the place of the file with --force-map"));
     ASSERT_EQ(draw(end_s, " --force-map " + moved).exit_code, 0);
     EXPECT_EQ(test::difference(test::read_png(folder_.file("moment.png")), last, 0).largest, 0) << "the same bytes";
-    folder_.write("moved.h5", core::read_file(moved).value() + " ");
+    folder_.write(name, core::read_file(moved).value() + " ");
     const auto changed = draw(end_s, " --force-map " + moved);
     EXPECT_EQ(changed.exit_code, 3);
     EXPECT_THAT(changed.err, HasSubstr(moved + " is not the force map that was felt, or has changed since"));

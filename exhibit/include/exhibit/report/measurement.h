@@ -43,7 +43,7 @@ struct Measurement {
   double sampled_f_ad_n = 0;
   std::optional<double> experiment_f_attr_n;
   std::optional<double> experiment_f_ad_n;
-  std::optional<TappedCycle> tapped;  // of a lever that taps, whose events have heights and no forces
+  std::optional<TappedCycle> tapped;  // figures of a lever that taps: its events have heights and no forces
 
   // Relative errors; for a jump to contact at Z = 0 (JKR), relative to Z_joc.
   CycleEvents error_vs_calculation() const;

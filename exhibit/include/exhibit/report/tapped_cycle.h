@@ -15,7 +15,7 @@ namespace afm::exhibit {
 
 // A jump from one state of a lever that taps to the other.
 struct TappedJump {
-  double z_m = 0;  // where the phase passes that of the free swing
+  double z_m = 0;  // height at which the phase passes that of the free swing
   scene::Swing before{}, after{};
 };
 

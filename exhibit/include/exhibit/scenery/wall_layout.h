@@ -123,8 +123,8 @@ inline constexpr double kRoomAboveNarrow = 0.5 * kRoomBelowPanels;
 inline constexpr double kNarrowWidth = 1.75;  // width of a composition without panels at its sides
 inline constexpr double kWidestPanel = 1.6 * kPanelHeight;
 inline constexpr double kWidestPlot = 2.0 * kPanelInnerEdge + 0.724;  // the finale's, as in the paper
-inline constexpr double kFarthestSightRad = 0.80;                     // of a panel: a turn of head and eyes
-inline constexpr double kCornerGap = 0.10;                            // from the corner of two screens to a panel
+inline constexpr double kFarthestSightRad = 0.80;  // largest angle of a panel: a turn of head and eyes
+inline constexpr double kCornerGap = 0.10;         // from the corner of two screens to a panel
 
 // The stroke of a cycle in units of Z_joc: from the deepest push below zero to the highest lift.
 inline constexpr double kStrokeOfZjoc = 0.30 + 1.40;
@@ -152,7 +152,7 @@ struct Contact {
   double height_m = 0;       // above the screen's lower edge
   glm::dvec3 place_m{0.0};   // in the room
   glm::dvec3 to_eye_m{0.0};  // in the screen's axes: right, up, out
-  double turn_rad = 0;       // of the layout about the screen's x axis, towards a viewer far above; 0: upright
+  double turn_rad = 0;       // turn about the screen's x axis, towards a viewer far above; 0: upright
 };
 Contact contact_of(const StagePlace& stage, const WallShape& shape);
 
