@@ -279,7 +279,8 @@ NanoscopeCurves::Layout NanoscopeCurves::known_layout(const NanoscopeBlock& chan
 }
 
 NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, std::size_t index) const {
-  const auto [size, points] = known_layout(channel);
+  const Layout layout = known_layout(channel);
+  const std::size_t size = layout.size, points = layout.points;
   const std::size_t half = lengths_.longer();
   const double offset = nanoscope_number(channel, "data offset");
   if (!(offset >= 0.0 && offset <= static_cast<double>(bytes_.size()))) throw CutShort("it is cut short");
@@ -287,7 +288,7 @@ NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, s
   const std::string_view data = all.substr(index * points * size, 2 * half * size);
   const double lowest = -0.5 * std::pow(256.0, static_cast<double>(size));
   const double lowest_of_two = has_two_bytes(channel) ? std::numeric_limits<std::int16_t>::min() : lowest;
-  const auto branch = [&, size = size](std::size_t first, std::size_t count) {
+  const auto branch = [&](std::size_t first, std::size_t count) {
     std::vector<double> values;
     values.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
