@@ -27,10 +27,10 @@ set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_termi
 # scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the place of two and begins before those that do
 # not, and one that measures a speed is SERIAL.
 # The tests that `filter` names draw more in a second case, NAME.deep of label deep (tests/support/deep.h). Those that ONLY_DEEP names,
-# a filter too but a suite with SUITES, are left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
+# a filter too but suites with SUITES, are left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
 # under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "OPTIMISED;SERIAL;DRAWS;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP;ONLY_DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS" ${ARGN})
+  cmake_parse_arguments(T "OPTIMISED;SERIAL;DRAWS;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS;ONLY_DEEP" ${ARGN})
   if(T_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "afm_test(${T_NAME}): unknown: ${T_UNPARSED_ARGUMENTS}")
   endif()

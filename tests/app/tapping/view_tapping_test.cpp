@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/whole_file.h"
+#include "servo/replay.h"
+#include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
@@ -38,9 +40,10 @@ class ViewTapping : public ::testing::Test {
 };
 
 TEST_F(ViewTapping, FeelsParametersThatChanged) {
-  support::LiveProgram view(window({"view", "--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz",
-                                    "--quality-factor", "400", "--spring-constant", "40N/m", "--material", "mica"}),
-                            display_.name());
+  support::LiveProgram view(
+      window({"view", "--mode", "tapping", "--free-amplitude", "20nm", "--resonance", "300kHz", "--quality-factor",
+              "400", "--spring-constant", "40N/m", "--material", "mica", "--record", folder_.file("kept")}),
+      display_.name());
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   key("1");
   ASSERT_TRUE(view.says("chosen: Mica")) << view.said();
@@ -58,6 +61,11 @@ TEST_F(ViewTapping, FeelsParametersThatChanged) {
   ASSERT_TRUE(view.says("jump to the repulsive state")) << view.said();
   key("Escape");
   EXPECT_EQ(view.ends(), 0) << view.said();
+  // the first one, too, which no other contact came before
+  const auto first = servo::load_session(folder_.file("kept/session-mica.afms"));
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_NE(first->find(physics::EventKind::JumpToRepulsion), nullptr);
+  EXPECT_TRUE(servo::replay(*first)->identical());
 }
 
 TEST_F(ViewTapping, IsAskedForItsStateInALesson) {
