@@ -99,7 +99,7 @@ constexpr std::size_t kMostRows = std::size_t{scene::kMarkTiles} * scene::kTileS
 
 cluster::MarkRecord row_of(const scene::MarkTile& tile, std::uint32_t number, std::uint32_t row) {
   cluster::MarkRecord record{.tile = number, .row = row};
-  const auto first = static_cast<std::ptrdiff_t>(row * scene::kTileSide);
+  const std::ptrdiff_t first = std::ptrdiff_t{row} * std::ptrdiff_t{scene::kTileSide};
   std::copy_n(tile.pressed_m.begin() + first, scene::kTileSide, record.pressed_m.begin());
   std::copy_n(tile.back_m.begin() + first, scene::kTileSide, record.back_m.begin());
   return record;
