@@ -139,20 +139,7 @@ void add_analysis(py::module_& module) {
 
 py::tuple interval(const fits::Interval& of) { return py::make_tuple(of.low, of.high); }
 
-void add_fit(py::module_& module) {
-  py::class_<Fit> found(module, "Fit", plain_type(), py::is_final(),
-                        "A fitted contact (docs/fits.md defines each figure). SI. Immutable.");
-  const auto add = [&found](const char* name, double fits::ElasticFit::* member, const char* doc) {
-    found.def_property_readonly(name, [member](const Fit& self) { return self.found.*member; }, doc);
-  };
-  add("E", &fits::ElasticFit::modulus_pa, "Young's modulus, Pa, for the given Poisson's ratio.");
-  add("reduced_modulus", &fits::ElasticFit::reduced_modulus_pa, "E/(1 - nu^2), Pa.");
-  add("contact_point", &fits::ElasticFit::contact_z_m, "Height of the base, or of the tip, at the contact point, m.");
-  add("level", &fits::ElasticFit::level_n, "Baseline at the first point, N.");
-  add("tilt", &fits::ElasticFit::tilt_n_per_m, "Slope of the baseline, N/m.");
-  add("depth", &fits::ElasticFit::depth_m, "Largest depth, m.");
-  add("noise", &fits::ElasticFit::noise_n, "RMS of the noise, N.");
-  add("rms", &fits::ElasticFit::rms_n, "RMS of all residuals, N.");
+void add_intervals(py::class_<Fit>& found) {
   found
       .def_property_readonly(
           "E_interval", [](const Fit& self) { return interval(self.found.modulus_interval_pa); },
@@ -184,7 +171,25 @@ void add_fit(py::module_& module) {
             if (!self.found.bootstrap || !self.found.adhesion) return py::none();
             return interval(self.found.bootstrap->work_j_per_m2);
           },
-          "The same of W, J/m2.")
+          "The same of W, J/m2.");
+}
+
+void add_fit(py::module_& module) {
+  py::class_<Fit> found(module, "Fit", plain_type(), py::is_final(),
+                        "A fitted contact (docs/fits.md defines each figure). SI. Immutable.");
+  const auto add = [&found](const char* name, double fits::ElasticFit::* member, const char* doc) {
+    found.def_property_readonly(name, [member](const Fit& self) { return self.found.*member; }, doc);
+  };
+  add("E", &fits::ElasticFit::modulus_pa, "Young's modulus, Pa, for the given Poisson's ratio.");
+  add("reduced_modulus", &fits::ElasticFit::reduced_modulus_pa, "E/(1 - nu^2), Pa.");
+  add("contact_point", &fits::ElasticFit::contact_z_m, "Height of the base, or of the tip, at the contact point, m.");
+  add("level", &fits::ElasticFit::level_n, "Baseline at the first point, N.");
+  add("tilt", &fits::ElasticFit::tilt_n_per_m, "Slope of the baseline, N/m.");
+  add("depth", &fits::ElasticFit::depth_m, "Largest depth, m.");
+  add("noise", &fits::ElasticFit::noise_n, "RMS of the noise, N.");
+  add("rms", &fits::ElasticFit::rms_n, "RMS of all residuals, N.");
+  add_intervals(found);
+  found
       .def_property_readonly(
           "model", [](const Fit& self) { return fits::row_of(self.found.shape).name; },
           "Shape or law; of \"auto\" the chosen one.")

@@ -71,13 +71,36 @@ std::shared_ptr<RecordedSession> load(const std::filesystem::path& path) {
       value_of(long_work([path = path.string()](const std::stop_token&) { return servo::load_session(path); })));
 }
 
+using SessionType = py::class_<RecordedSession, std::shared_ptr<RecordedSession>>;
+
+void add_events(SessionType& type) {
+  type.def_property_readonly("events", &events_of,
+                             "Events in their order: dicts of kind, time s, z m, force_before N and force_after N.")
+      .def_property_readonly("event_kind", &event_kinds, "Kind of each event, \"jump-to-contact\".")
+      .def_property_readonly("event_time", of_events([](const RecordedSession& self, const scene::TipEvent& event) {
+                               return self.seconds_since_start(event.time_ns);
+                             }),
+                             "Time of each event since the start, s.")
+      .def_property_readonly("event_z",
+                             of_events([](const RecordedSession&, const scene::TipEvent& event) { return event.z_m; }),
+                             "Height of the lever's base at each event, m.")
+      .def_property_readonly("event_force_before", of_events([](const RecordedSession&, const scene::TipEvent& event) {
+                               return event.force_before_n;
+                             }),
+                             "Force just before each event, N.")
+      .def_property_readonly("event_force_after", of_events([](const RecordedSession&, const scene::TipEvent& event) {
+                               return event.force_after_n;
+                             }),
+                             "Force just after each event, N.");
+}
+
 }  // namespace
 
 void add_sessions(py::module_& module) {
-  py::class_<RecordedSession, std::shared_ptr<RecordedSession>>(
-      module, "Session", plain_type(), py::is_final(),
-      "What a hand felt: every tick of the servo and every event. SI. Immutable.")
-      .def_readonly("material", &RecordedSession::material, "Name of the material.")
+  SessionType type(module, "Session", plain_type(), py::is_final(),
+                   "What a hand felt: every tick of the servo and every event. SI. Immutable.");
+  add_events(type);
+  type.def_readonly("material", &RecordedSession::material, "Name of the material.")
       .def_property_readonly(
           "parameters", [](const RecordedSession& self) { return dict_of(contact_numbers(self)["parameters"]); },
           "Every number of the contact that was felt, by the keys of touchafm replay --json. SI.")
@@ -115,24 +138,6 @@ void add_sessions(py::module_& module) {
                             [](const TipSample& sample) { return sample.phase == physics::Phase::Attached; });
           },
           "True while the tip touches.")
-      .def_property_readonly("events", &events_of,
-                             "Events in their order: dicts of kind, time s, z m, force_before N and force_after N.")
-      .def_property_readonly("event_kind", &event_kinds, "Kind of each event, \"jump-to-contact\".")
-      .def_property_readonly("event_time", of_events([](const RecordedSession& self, const scene::TipEvent& event) {
-                               return self.seconds_since_start(event.time_ns);
-                             }),
-                             "Time of each event since the start, s.")
-      .def_property_readonly("event_z",
-                             of_events([](const RecordedSession&, const scene::TipEvent& event) { return event.z_m; }),
-                             "Height of the lever's base at each event, m.")
-      .def_property_readonly("event_force_before", of_events([](const RecordedSession&, const scene::TipEvent& event) {
-                               return event.force_before_n;
-                             }),
-                             "Force just before each event, N.")
-      .def_property_readonly("event_force_after", of_events([](const RecordedSession&, const scene::TipEvent& event) {
-                               return event.force_after_n;
-                             }),
-                             "Force just after each event, N.")
       .def("__len__", [](const RecordedSession& self) { return self.samples.size(); })
       .def("__repr__", [](const RecordedSession& self) {
         return fmt::format("<touchafm.Session on {}, {} samples>", self.material, self.samples.size());
