@@ -14,7 +14,7 @@
 #include "curves/image_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/image_files.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"

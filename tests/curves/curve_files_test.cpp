@@ -11,7 +11,7 @@
 
 #include "core/whole_file.h"
 #include "support/deep.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::curves {

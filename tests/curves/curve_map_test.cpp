@@ -23,7 +23,7 @@
 #include "scene/samples/material_library.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 

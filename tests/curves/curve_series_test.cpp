@@ -10,7 +10,7 @@
 
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::curves {

@@ -6,7 +6,7 @@
 
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 // HDF5 files with links to other files, whose contents must not be disclosed to the sender.

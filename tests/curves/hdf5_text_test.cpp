@@ -5,7 +5,7 @@
 #include <string>
 
 #include "curves/curve_file.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 // HDF5 files hold text of a fixed length, as C and Fortran write it, or of any length, as Python does.

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::curves {
 namespace parameter_build_test {

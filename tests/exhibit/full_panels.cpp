@@ -17,7 +17,7 @@
 #include "scene/shared/shared_blocks.h"
 #include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::exhibit {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "support/phrases.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::exhibit {
 namespace swing_panel_test {

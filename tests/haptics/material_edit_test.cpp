@@ -12,7 +12,7 @@
 
 #include "haptics/edit_thread.h"
 #include "servo_bench.h"
-#include "support/measured_curve_of.h"
+#include "support/samples/measured_curve_of.h"
 
 namespace material_edit_test {
 

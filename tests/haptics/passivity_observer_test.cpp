@@ -16,7 +16,7 @@
 
 #include "haptics/sample_axes.h"
 #include "servo_bench.h"
-#include "support/rough_surface.h"
+#include "support/samples/rough_surface.h"
 
 namespace passivity_observer_test {
 

@@ -15,7 +15,7 @@
 #include "haptics/safety.h"
 #include "haptics/simulated_device.h"
 #include "physics/measured_branches.h"
-#include "support/recorded_cycles.h"
+#include "support/samples/recorded_cycles.h"
 
 namespace afm::haptics {
 namespace recorded_contact_test {

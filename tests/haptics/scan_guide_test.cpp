@@ -14,7 +14,7 @@
 
 #include "haptics/scan_guide.h"
 #include "servo_bench.h"
-#include "support/rough_surface.h"
+#include "support/samples/rough_surface.h"
 
 // A hand that a scan leads, and a hand that is the scanner.
 namespace scan_guide_test {

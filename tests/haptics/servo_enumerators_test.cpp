@@ -10,7 +10,7 @@
 #include "core/enumerators.h"
 #include "physics/friction/friction.h"
 #include "servo_bench.h"
-#include "support/measured_curve_of.h"
+#include "support/samples/measured_curve_of.h"
 #include "support/particles/gold_particles.h"
 
 // A tick with every enumerator that reaches it from material, friction, scale, scan and renderer: each is felt, or

@@ -16,8 +16,8 @@
 #include "haptics/sample_axes.h"
 #include "physics/contact.h"
 #include "servo_bench.h"
-#include "support/measured_surface.h"
-#include "support/rough_surface.h"
+#include "support/samples/measured_surface.h"
+#include "support/samples/rough_surface.h"
 
 namespace topography_test {
 

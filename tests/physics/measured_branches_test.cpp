@@ -11,7 +11,7 @@
 
 #include "physics/force_model.h"
 #include "physics/law_tables.h"
-#include "support/recorded_cycles.h"
+#include "support/samples/recorded_cycles.h"
 
 namespace afm::physics {
 namespace measured_branches_test {

@@ -9,7 +9,7 @@
 #include "servo/recorded_servo.h"
 #include "servo/session_file.h"
 #include "support/paper_model.h"
-#include "support/rough_surface.h"
+#include "support/samples/rough_surface.h"
 #include "support/scratch_folder.h"
 
 namespace afm::servo {

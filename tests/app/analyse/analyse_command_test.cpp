@@ -16,7 +16,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
 #include "curves/image_file.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {

@@ -19,7 +19,7 @@
 #include "curves/image_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"

@@ -17,7 +17,7 @@
 #include "exhibit/panels/parameter_panel.h"
 #include "servo/servo_client.h"
 #include "support/paper_model.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::app {
 namespace parameter_edits_test {

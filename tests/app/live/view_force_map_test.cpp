@@ -16,7 +16,7 @@
 #include "servo/session_file.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/hertz_curve.h"
+#include "support/samples/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/pictures.h"
 #include "support/places.h"

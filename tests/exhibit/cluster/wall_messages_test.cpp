@@ -10,7 +10,7 @@
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/cluster/wall_model.h"
 #include "support/scratch_folder.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace wall_messages_test {
 

@@ -11,7 +11,7 @@
 #include "scene/samples/material_library.h"
 #include "support/phrases.h"
 #include "support/places.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::exhibit {
 namespace state_step_test {

@@ -15,7 +15,7 @@
 #include "exhibit/report/report.h"
 #include "physics/contact_phase.h"
 #include "support/phrases.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::exhibit {
 namespace tapped_cycle_test {

@@ -17,7 +17,7 @@
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
 #include "scanned_sample.h"
-#include "support/tapped_sample.h"
+#include "support/samples/tapped_sample.h"
 
 // The scan that the live wall shows under a lever that taps, driven as the keys drive it.
 namespace afm::exhibit {

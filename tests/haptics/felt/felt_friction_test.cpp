@@ -18,7 +18,7 @@
 #include "physics/friction/prandtl_tomlinson.h"
 #include "servo_bench.h"
 #include "support/no_alloc.h"
-#include "support/rough_surface.h"
+#include "support/samples/rough_surface.h"
 
 namespace felt_friction_test {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "support/archives/jpk_map.h"
-#include "support/recorded_cycles.h"
+#include "support/samples/recorded_cycles.h"
 
 namespace afm::test {
 
