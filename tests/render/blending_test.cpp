@@ -173,7 +173,8 @@ TEST_F(Blended, PairAddsUpToThePictureOfOneProjector) {
   for (const auto& [overlap_px, keys] :
        {std::pair(64U, ""), std::pair(64U, "blend_right = \"0.2 m\"\n"), std::pair(20U, "")}) {
     for (const std::optional<double> gamma : {std::optional<double>(), {1.8}, {2.2}, {2.6}}) {
-      const bool usual = !gamma || (gamma == 2.2 && overlap_px == 64 && std::string_view(keys).empty());
+      const bool first = overlap_px == 64 && std::string_view(keys).empty();
+      const bool usual = !gamma || (gamma == 2.2 && first);
       if (!support::deep() && !usual) continue;
       set_up(overlap_px, keys, gamma ? fmt::format("gamma = {}\n", *gamma) : "");
       for (Part& part : parts_) {
@@ -181,7 +182,7 @@ TEST_F(Blended, PairAddsUpToThePictureOfOneProjector) {
       }
       for (const StereoMode mode : kBlendedModes) {
         for (const EyeOrder order : {EyeOrder::Straight, EyeOrder::Swapped}) {
-          if (order == EyeOrder::Swapped && gamma) continue;
+          if (order == EyeOrder::Swapped && (gamma || (!first && !support::deep()))) continue;
           std::vector<std::array<render::Image, 2>> shown;
           std::vector<unsigned> begins_px;
           for (Part& part : parts_) {
