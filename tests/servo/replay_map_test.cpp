@@ -148,10 +148,10 @@ TEST(ReplayOfAMap, RefusesAFileWhoseMapCannotBe) {
   EXPECT_THAT(refusal(with([](auto& map) { map.spacing_m = 0.0; })), testing::HasSubstr("is not a grid"));
   RecordedSession mapless = session;
   mapless.law_map = nullptr;
-  EXPECT_THAT(refusal(mapless), testing::HasSubstr("its law is of another version"));
+  EXPECT_THAT(refusal(mapless), testing::HasSubstr("its content is that of another version"));
   RecordedSession lawless = session;
   lawless.parameters.law_map = 0;
-  EXPECT_THAT(refusal(lawless), testing::HasSubstr("its law is of another version"));
+  EXPECT_THAT(refusal(lawless), testing::HasSubstr("its content is that of another version"));
 }
 
 }  // namespace replay_map_test

@@ -21,7 +21,9 @@
 #include "scene/shared/shared_segment.h"
 #include "session_chunks.h"
 #include "session_header.h"
+#include "session_particles.h"
 #include "session_records.h"
+#include "session_versions.h"
 
 namespace afm::servo {
 
@@ -95,9 +97,39 @@ bool read_topography(std::string_view payload, scene::Topography& topography) {
   return true;
 }
 
+bool read_surface(std::string_view payload, RecordedSession& session) {
+  return payload.size() == sizeof(SharedHeightField) && take(payload, session.surface.emplace());
+}
+
+// Reads a chunk that follows the head; returns an error message, or nothing. Chunks of a later TouchAFM are skipped:
+// they do not change the forces.
+std::string read_chunk(const SessionVersion& version, std::string_view name, std::string_view payload,
+                       RecordedSession& session) {
+  if (name == kSurfaceChunk && !read_surface(payload, session)) {
+    return "the size of its surface differs from this program's";
+  }
+  if (name == kTopographyChunk && !read_topography(payload, session.topography)) return "its topography is damaged";
+  if (!may_have(version, name)) return {};
+  if (name == kLawMapChunk) {
+    session.law_map = read_law_map(payload);
+    return session.law_map ? "" : "its map of modulus and adhesion is damaged";
+  }
+  for (const ParticleChunk& chunk : particle_chunks()) {
+    if (name != chunk.name) continue;
+    if (chunk.begins) session.particles.emplace();
+    if (!session.particles || !chunk.read(payload, *session.particles)) return chunk.damaged;
+  }
+  return {};
+}
+
 // Reads a part; returns an error message, or nothing.
-std::string read_part(std::string_view payload, RecordedSession& session, nlohmann::json& last_frame) {
-  if (!take_samples(payload, session.samples, sample_bytes_of(session)) || !take_all(payload, session.events))
+std::string read_part(const SessionVersion& version, std::string_view payload, RecordedSession& session,
+                      nlohmann::json& last_frame) {
+  const bool has_law = session.parameters.law_map != 0;
+  if (&version_of(session) != &version || has_law != (session.law_map != nullptr)) {
+    return "its content is that of another version";
+  }
+  if (!take_samples(payload, session.samples, version.sample_bytes) || !take_all(payload, session.events))
     return "a part of it is damaged";
   for (WallFrame& frame : frames_of(nlohmann::json::parse(payload), last_frame)) {
     session.wall.push_back(std::move(frame));
@@ -105,42 +137,8 @@ std::string read_part(std::string_view payload, RecordedSession& session, nlohma
   return {};
 }
 
-// True if a file of this version has such particles.
-bool is_of(std::uint32_t version, const scene::SharedParticles& set) {
-  if ((set.soft.hardness_pa > 0.0) != (version == kVersionWithMarks)) return false;
-  if ((set.ink.molecules_per_s > 0.0) != (version == kVersionWithInk)) return false;
-  if ((set.level.level > 0) != (version == kVersionWithLevel)) return false;
-  if (scene::has_islands(set) != (version == kVersionWithIslands)) return false;
-  if (lifts(set) != (version == kVersionWithLift)) return false;
-  if (version >= kVersionWithPlans) return true;
-  if (scene::has_hold(set) != (version == kVersionWithHold)) return false;
-  return version == kVersionWithHold || scene::has_rods(set) == (version == kVersionWithRods);
-}
-
-bool has_law_map(std::uint32_t version) {
-  return version == kVersionWithLawMap || version == kVersionWithViscousMap || version == kVersionWithMapVibration;
-}
-
-// True if a map of these parameters belongs into a file of this version.
-bool is_of(std::uint32_t version, const scene::SharedContact& parameters) {
-  if (version == kVersionWithMapVibration) return parameters.map_vibration != scene::MapVibration::None;
-  return parameters.map_vibration == scene::MapVibration::None &&
-         (parameters.viscous_map != 0) == (version == kVersionWithViscousMap);
-}
-
-// Size of a sample in a file of this version of chunks.
-std::size_t sample_bytes_in(std::uint32_t version) {
-  if (version == kVersionWithLevel) return kMostSampleBytes;
-  if (version >= kVersionWithPlans && !has_law_map(version)) return kSampleBytesWithoutLevel;
-  if (version == kVersionWithSwing) return kSampleBytesWithoutPlan;
-  const bool without_push = version == kSessionVersion || has_law_map(version);
-  return without_push ? kSampleBytesWithoutPush : kSampleBytesWithoutSwing;
-}
-
-// Reads version 6 to 20; returns an error message, or nothing.
-std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSession& session) {
-  const bool with_map = has_law_map(version);
-  const bool with_particles = version != kSessionVersion && version != kVersionWithSwing && !with_map;
+// Reads a file of chunks; returns an error message, or nothing.
+std::string read_chunks(std::string_view file, const SessionVersion& version, RecordedSession& session) {
   SessionDecoder decoder(file);
   nlohmann::json last_frame;
   for (bool first = true;; first = false) {
@@ -151,47 +149,25 @@ std::string read_chunks(std::string_view file, std::uint32_t version, RecordedSe
     if (step == SessionDecoder::Step::Cut)
       return session.samples.empty() ? "it is truncated before its first tick" : "";
     if (first != (decoder.name() == kHeadChunk)) return "its parts are out of order";
-    std::string_view payload = decoder.payload();
+    std::string wrong;
     if (first) {
-      if (std::string wrong = read_header(payload, sample_bytes_in(version), session); !wrong.empty()) return wrong;
-      if (scene::taps(session.parameters) != (version == kVersionWithSwing)) return "its lever is of another version";
-      if ((session.parameters.law_map != 0) != with_map) return "its law is of another version";
-      if (!is_of(version, session.parameters)) return "its map is of another version";
-    } else if (decoder.name() == kSurfaceChunk) {
-      if (payload.size() != sizeof(SharedHeightField) || !take(payload, session.surface.emplace())) {
-        return "the size of its surface differs from this program's";
-      }
-    } else if (decoder.name() == kTopographyChunk) {
-      if (!read_topography(payload, session.topography)) return "its topography is damaged";
-    } else if (with_map && decoder.name() == kLawMapChunk) {
-      session.law_map = read_law_map(payload);
-      if (!session.law_map) return "its map of modulus and adhesion is damaged";
-    } else if (version == kVersionWithMarks && decoder.name() == kSoftChunk) {
-      if (!read_soft(payload, session.particles.emplace())) return "its soft sample is damaged";
-      session.has_plans = true;
-    } else if (version == kVersionWithInk && decoder.name() == kInkChunk) {
-      if (!read_ink(payload, session.particles.emplace())) return "its ink is damaged";
-      session.has_plans = true;
-    } else if (with_particles && decoder.name() == kParticlesChunk) {
-      if (!read_particles(payload, session.particles.emplace())) return "its particles are damaged";
-      session.has_plans = version >= kVersionWithPlans;
-    } else if (with_particles && version >= kVersionWithRods && decoder.name() == kRodsChunk) {
-      if (!session.particles || !read_rods(payload, *session.particles)) return "its rods are damaged";
-    } else if (version == kVersionWithLift && decoder.name() == kPadsChunk) {
-      if (!session.particles || !read_pads(payload, *session.particles)) return "its pads are damaged";
-    } else if (version == kVersionWithIslands && decoder.name() == kIslandsChunk) {
-      if (!session.particles || !read_islands(payload, *session.particles)) return "its islands are damaged";
-    } else if (version == kVersionWithLevel && decoder.name() == kLevelChunk) {
-      if (!session.particles || !read_level(payload, *session.particles)) return "its picture is damaged";
+      wrong = read_header(decoder.payload(), version.sample_bytes, session);
+      session.has_plans = version.has_plans;
     } else if (decoder.name() == kPartChunk) {
-      if (with_particles != session.particles.has_value()) return "its parts are out of order";
-      if (with_map != (session.law_map != nullptr)) return "its parts are out of order";
-      if (with_particles && !is_of(version, session.particles->set)) return "its parts are out of order";
-      if (std::string wrong = read_part(payload, session, last_frame); !wrong.empty()) return wrong;
-    } else if (decoder.name() == kEndChunk) {
-      session.complete = true;
-    }  // chunks of a later TouchAFM are skipped: they do not change the forces
+      wrong = read_part(version, decoder.payload(), session, last_frame);
+    } else {
+      wrong = read_chunk(version, decoder.name(), decoder.payload(), session);
+    }
+    if (!wrong.empty()) return wrong;
+    session.complete = decoder.name() == kEndChunk;
   }
+}
+
+std::vector<std::uint32_t> readable_versions() {
+  std::vector<std::uint32_t> numbers{kVersionOf010};
+  for (const SessionVersion& version : session_versions()) numbers.push_back(version.number);
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
 }
 
 bool can_be(const scene::Pose& pose) {
@@ -339,17 +315,14 @@ core::Result<RecordedSession> load_session(const std::string& path) {
   std::string_view body = std::string_view(*file).substr(kSessionMagic.size());
   std::uint32_t version = 0;
   if (!take(body, version)) return bad("it is truncated");
-  constexpr std::array kVersions{kVersionOf010,          kSessionVersion,   kVersionWithParticles,   kVersionWithRods,
-                                 kVersionWithHold,       kVersionWithSwing, kVersionWithPlans,       kVersionWithLift,
-                                 kVersionWithIslands,    kVersionWithLevel, kVersionWithLawMap,      kVersionWithMarks,
-                                 kVersionWithViscousMap, kVersionWithInk,   kVersionWithMapVibration};
-  if (std::find(kVersions.begin(), kVersions.end(), version) == kVersions.end()) {
-    return bad(fmt::format("its version is {}; this program reads versions {}", version, fmt::join(kVersions, ", ")));
+  const SessionVersion* chunked = find_version(version);
+  if (!chunked && version != kVersionOf010) {
+    return bad(fmt::format("its version is {}; this program reads versions {}", version,
+                           fmt::join(readable_versions(), ", ")));
   }
   RecordedSession session;
   try {
-    const std::string wrong =
-        version == kVersionOf010 ? read_records(*file, session) : read_chunks(*file, version, session);
+    const std::string wrong = chunked ? read_chunks(*file, *chunked, session) : read_records(*file, session);
     if (!wrong.empty()) return bad(wrong);
   } catch (const nlohmann::json::exception& error) {
     return bad(fmt::format("its header is damaged ({})", error.what()));

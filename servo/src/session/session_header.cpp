@@ -9,7 +9,7 @@
 #include "core/written_by.h"
 #include "scene/shared/map_vibration.h"
 #include "scene/shared/shared_segment.h"
-#include "session_chunks.h"
+#include "session_versions.h"
 
 namespace afm::servo {
 
@@ -205,7 +205,7 @@ nlohmann::json header_of(const RecordedSession& session) {
                         {"room_from_sample", session.room_from_sample},
                         {"device", json_of(session.device)},
                         {"dead_man", session.dead_man},
-                        {"sample_bytes", sample_bytes_of(session)},
+                        {"sample_bytes", version_of(session).sample_bytes},
                         {"event_bytes", sizeof(scene::TipEvent)},
                         {"surface_bytes", surface_bytes_of(session)}};
   if (const auto& curve = session.curve) {

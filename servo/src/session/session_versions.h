@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "servo/session_file.h"
+
+namespace afm::servo {
+
+// Version of a session file that consists of chunks. A session is written as the first version of session_versions()
+// that it belongs to, so that an older program reads all that it can replay and refuses the rest by its number.
+struct SessionVersion {
+  std::uint32_t number;
+  std::size_t sample_bytes;                // beginning of a TipSample that it keeps
+  bool has_plans;                          // samples have the plans of pushes
+  std::array<std::string_view, 3> chunks;  // those beside HEAD, SURF, TOPO, PART and DONE, which all versions have
+  bool (*is_of)(const RecordedSession& session);
+};
+
+std::span<const SessionVersion> session_versions();
+
+const SessionVersion& version_of(const RecordedSession& session);
+
+// Version of this number; null: none of those with chunks.
+const SessionVersion* find_version(std::uint32_t number);
+
+bool may_have(const SessionVersion& version, std::string_view chunk);
+
+}  // namespace afm::servo
