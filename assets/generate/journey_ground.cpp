@@ -15,9 +15,11 @@ constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
 constexpr double kRingRatio = 1.07;  // cells about as long as wide before the tip
 constexpr int kHalvings = 6;         // 256 directions, of which half are used before the tip
-constexpr double kAtomsReach = 3.3 * kNm, kAtomsSink = 2.0 * kNm;  // from there outwards fewer and fewer are seen
-constexpr double kBelowAtoms = 0.2 * kNm;                          // depth of the ground below the atoms
-constexpr std::int64_t kAtomRows = 15, kAtomColumns = 21;          // enough for that reach
+constexpr double kAtomsReach = 11.5 * kNm, kAtomsSink = 8.0 * kNm;  // from there outwards fewer and fewer are seen
+constexpr double kNearReach = 5.0 * kNm;                            // round and outlined atoms
+constexpr double kBelowAtoms = 0.2 * kNm;                           // depth of the ground below the atoms
+constexpr double kCloseFrom = 7 * kNm, kCloseTo = 45 * kNm;  // from there inwards the ground has its atoms' colour
+constexpr std::int64_t kAtomRows = 52, kAtomColumns = 74;    // enough for the reach
 
 // Visible features at a decade of scale.
 struct Features {
@@ -32,7 +34,8 @@ struct Look {
   const char* name;
   MaterialSpec material;
   Features decades[kDecades];
-  std::function<V3(double)> tint;  // colour for a height 0..1 in the pattern
+  std::function<V3(double)> tint;          // colour for a height 0..1 in the pattern
+  std::function<V3(double)> close_tint{};  // the same where single atoms nearly show, in their mean colour
 };
 
 struct Place {
@@ -95,7 +98,9 @@ std::vector<Surface> rings(const Look& look) {
     const Place here = ground_at(look, x, y);
     const double slope_x = (ground_at(look, x + step, y).height - ground_at(look, x - step, y).height) / (2 * step);
     const double slope_y = (ground_at(look, x, y + step).height - ground_at(look, x, y - step).height) / (2 * step);
-    return SurfaceVertex{{x, y, here.height}, unit(V3{-slope_x, -slope_y, 1}), look.tint(here.shade)};
+    V3 color = look.tint(here.shade);
+    if (look.close_tint) color = mix(look.close_tint(here.shade), color, smooth_step(kCloseFrom, kCloseTo, r));
+    return SurfaceVertex{{x, y, here.height}, unit(V3{-slope_x, -slope_y, 1}), color};
   };
   std::vector<Surface> result;
   for (std::size_t part = 0; part + 1 < cuts.size(); ++part) {
@@ -115,7 +120,7 @@ std::vector<Surface> rings(const Look& look) {
 // The viewer is at negative y, 2 to 3 nm from the contact.
 int halvings_at(double x, double y) {
   const double away = std::sqrt(x * x + (y + 2.3 * kNm) * (y + 2.3 * kNm));
-  return away < 0.95 * kNm ? 3 : away < 2.6 * kNm ? 2 : 1;
+  return away < 0.95 * kNm ? 3 : away < 2.6 * kNm ? 2 : away < 6.0 * kNm ? 1 : 0;
 }
 
 // Depth of an atom below its place: the farther from the contact, the fewer are out of the ground, and the lattice
@@ -125,11 +130,18 @@ double sunk(double r, std::int64_t column, std::int64_t row) {
   return 1.7 * kBelowAtoms * smooth_step(-0.4 * kNm, 0.3 * kNm, r - until);
 }
 
-Surface mica_atoms() {
+// Those that are seen from near, and all others.
+struct Atoms {
+  Surface near, far;
+
+  Surface& at(double r) { return r < kNearReach ? near : far; }
+};
+
+Atoms mica_atoms() {
   // basal oxygens in rings of six: a triangular lattice of 0.26 nm without every fourth site, over every other of which
   // a potassium ion is left by the cleavage (W. L. Bragg's structure; a = 0.52 nm)
   constexpr double kSpacing = 0.26 * kNm;
-  Surface surface;
+  Atoms atoms;
   for (std::int64_t row = -kAtomRows; row <= kAtomRows; ++row) {
     for (std::int64_t column = -kAtomColumns; column <= kAtomColumns; ++column) {
       const double x = (static_cast<double>(column) + 0.5 * static_cast<double>(row)) * kSpacing;
@@ -138,20 +150,20 @@ Surface mica_atoms() {
       if (r > kAtomsReach) continue;
       const bool hole = (column % 2 != 0) && (row % 2 != 0);
       if (!hole) {
-        add_atom(surface, {x, y, -0.15 * kNm - sunk(r, column, row)}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15},
+        add_atom(atoms.at(r), {x, y, -0.15 * kNm - sunk(r, column, row)}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15},
                  halvings_at(x, y));
       } else if (random_unit(column, row, 91) > 0.5) {
-        add_atom(surface, {x, y, -0.13 * kNm - sunk(r, column, row)}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62},
+        add_atom(atoms.at(r), {x, y, -0.13 * kNm - sunk(r, column, row)}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62},
                  halvings_at(x, y));
       }
     }
   }
-  return surface;
+  return atoms;
 }
 
 // A triangular lattice, each atom moved by up to `disorder` of the spacing.
-Surface packed_atoms(double spacing, double disorder, const std::function<V3(double)>& color) {
-  Surface surface;
+Atoms packed_atoms(double spacing, double disorder, const std::function<V3(double)>& color) {
+  Atoms atoms;
   for (std::int64_t row = -kAtomRows; row <= kAtomRows; ++row) {
     for (std::int64_t column = -kAtomColumns; column <= kAtomColumns; ++column) {
       const double jitter_x = disorder * (random_unit(column, row, 92) - 0.5);
@@ -162,14 +174,14 @@ Surface packed_atoms(double spacing, double disorder, const std::function<V3(dou
       if (r > kAtomsReach) continue;
       const double radius = 0.54 * spacing;
       const double sink = disorder * 0.2 * spacing * random_unit(column, row, 94) + sunk(r, column, row);
-      add_atom(surface, {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)),
+      add_atom(atoms.at(r), {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)),
                halvings_at(x, y));
     }
   }
-  return surface;
+  return atoms;
 }
 
-Model ground(const Look& look, Surface atoms) {
+Model ground(const Look& look, Atoms atoms) {
   Model model{std::string("ground-") + look.name, {}};
   model.nodes.push_back({.name = "ground", .placement = kYUpFromZUp});
   std::vector<Surface> parts = rings(look);
@@ -181,7 +193,8 @@ Model ground(const Look& look, Surface atoms) {
   ball.name = "atoms";
   ball.base_color = {1, 1, 1};
   ball.roughness = 0.35;
-  model.nodes.push_back({.name = "atoms", .parent = 0, .parts = {{std::move(atoms), ball}}});
+  model.nodes.push_back({.name = "atoms", .parent = 0, .parts = {{std::move(atoms.near), ball}}});
+  model.nodes.push_back({.name = "far-atoms", .parent = 0, .parts = {{std::move(atoms.far), ball}}});
   return model;
 }
 
@@ -252,7 +265,9 @@ std::vector<Model> grounds() {
                   {0.014, steps},
                   {0.035, steps},
                   {0, terraces}},
-      .tint = [](double n) { return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n); }};
+      .tint = [](double n) { return mix(V3{0.42, 0.48, 0.54}, V3{1.0, 0.96, 0.92}, n); },
+      // oxygen and some potassium, as mica_atoms()
+      .close_tint = [](double n) { return mix(V3{0.30, 0.16, 0.20}, V3{0.80, 0.42, 0.40}, n); }};
   const Look gold{.name = "gold",
                   .material = {.name = "gold",
                                .base_color = {1.0, 0.66, 0.23},
@@ -272,7 +287,7 @@ std::vector<Model> grounds() {
                   }};
   const Look nitride{.name = "si3n4",
                      .material = {.name = "silicon nitride",
-                                  .base_color = {0.060, 0.098, 0.092},
+                                  .base_color = {0.25, 0.25, 0.25},
                                   .roughness = 0.32,
                                   .vertex_colors = true},
                      .decades = {{0.02, scratches},
@@ -282,10 +297,13 @@ std::vector<Model> grounds() {
                                  {0.05, speckle},
                                  {0.05, speckle},
                                  {0, speckle}},
-                     .tint = [](double n) {
-                       const double lit = mix(0.5, 1, n);
-                       return V3{lit, lit, lit};
-                     }};
+                     .tint =
+                         [](double n) {
+                           const double lit = mix(0.5, 1, n);
+                           return V3{0.240, 0.392, 0.368} * lit;
+                         },
+                     // silicon and nitrogen, as packed_atoms()
+                     .close_tint = [](double n) { return V3{0.88, 0.90, 1.0} * mix(0.5, 1, n); }};
   std::vector<Model> models;
   models.push_back(ground(mica, mica_atoms()));
   models.push_back(ground(gold, packed_atoms(0.288 * kNm, 0, [](double) { return V3{1.0, 0.66, 0.23}; })));

@@ -280,7 +280,7 @@ double tip_radius() { return kApexRadius; }
 
 void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, int halvings) {
   // rings from the pole to 112 degrees from it; the neighbours take the light from what lies low
-  const std::vector<V2> rings = arc({1, 0}, {-0.37460659341591201, 0.92718385456678742}, halvings);
+  const std::vector<V2> rings = arc({1, 0}, {-0.37460659341591201, 0.92718385456678742}, std::max(1, halvings));
   const Outline around = circle(1, halvings);
   const double side = facing == Facing::Up ? 1 : -1;
   const auto vertex = [&](V3 normal, double height) {

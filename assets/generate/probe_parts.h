@@ -20,7 +20,7 @@ double tip_length();  // from the apex to the base
 double tip_radius();  // radius of the ball
 
 // The part of a ball that shows among others, more than half of it, on the side that `facing` says.
-// 4 x 2^halvings points around.
+// 4 x 2^halvings points around, in two rings at least.
 void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, int halvings);
 
 }  // namespace afm::generate

@@ -28,7 +28,7 @@ constexpr double kBelowPixel = 0.0015;  // size in layout units
 // Scales between which the tip's soft shade replaces the shadows of the triangles.
 constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
 // Scales between which the sample's atoms come out of its ground, once they fill the view.
-constexpr double kAtomsFromOrders = 8.3, kAtomsAtOrders = 8.85, kAtomsHiddenM = 0.36e-9;
+constexpr double kAtomsFromOrders = 8.2, kAtomsAtOrders = 8.5, kAtomsHiddenM = 0.36e-9;
 
 // Among the atoms everything is in the tip's shade, which leaves them some light.
 constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
@@ -95,7 +95,7 @@ void Journey::measure(const scene::Scene& scene, scene::NodeIndex first, std::op
     });
     parts_.push_back(part);
     if (!scene.nodes[i].name.ends_with("atoms")) continue;
-    atoms_.push_back(i);
+    if (!scene.nodes[i].name.ends_with("far-atoms")) atoms_.push_back(i);
     if (ground) ground_atoms_.push_back(i);
   }
 }

@@ -79,7 +79,7 @@ class Journey {
   scene::NodeIndex frame_ = 0;
   Tip tip_;
   std::vector<Part> parts_;
-  std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // all, and those of the samples
+  std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // those with an outline, and those of the samples
   std::vector<std::string> grounds_;
 };
 
