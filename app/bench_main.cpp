@@ -22,7 +22,7 @@ int run(int count, char** arguments) {
   bool as_json = false;
   command_line.add_flag("--json", as_json, "print JSON with times in seconds instead of a table");
   const auto answer = command_line.parse(count, arguments);
-  if (!answer) return fail(ExitCode::WrongUsage, answer.error().message + "; see touchafm-bench --help");
+  if (!answer) return fail(ExitCode::WrongUsage, answer.error().message);
   std::string text = *answer;
   if (text.empty()) {
     const std::string touchafm = afm::core::own_program().replace_filename("touchafm").string();

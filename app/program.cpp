@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/options/menu_notice.h"
+#include "app/options/nearest_word.h"
 #include "app/options/standard_output.h"
 #include "core/exit_code.h"
 #include "core/own_folder.h"
@@ -42,6 +43,12 @@ bool names_unknown_command(int count, char** arguments) {
                       [name](const Command& command) { return command.name == name; });
 }
 
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Command& command : kCommands) names.emplace_back(command.name);
+  return names;
+}
+
 }  // namespace
 
 int run_program(int count, char** arguments, const char* commit) {
@@ -55,11 +62,11 @@ int run_program(int count, char** arguments, const char* commit) {
   add_commands(command_line, context);
 
   if (names_unknown_command(count, arguments)) {
-    return fail(core::ExitCode::WrongUsage,
-                "unknown command \"" + std::string(arguments[1]) + "\"; see touchafm --help");
+    return fail(core::ExitCode::WrongUsage, fmt::format("unknown command \"{}\"{}; see touchafm --help", arguments[1],
+                                                        suggestion(arguments[1], command_names())));
   }
   const auto answer = command_line.parse(count, arguments);
-  if (!answer) return fail(core::ExitCode::WrongUsage, answer.error().message + "; see touchafm --help");
+  if (!answer) return fail(core::ExitCode::WrongUsage, answer.error().message);
   if (!answer->empty()) {
     std::fputs(answer->c_str(), stdout);
   } else if (const auto done = command_line.run(); !done) {

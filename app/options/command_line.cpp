@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/options/usage_errors.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
@@ -85,6 +86,22 @@ CommandDescription describe_command(const CLI::App& app) {
     }
   }
   return command;
+}
+
+TypedCommand typed_command(const CLI::App& program) {
+  const auto typed_below = [](const CLI::App& app) -> const CLI::App* {
+    for (const CLI::App* each : app.get_subcommands()) {
+      if (!each->get_name().empty()) return each;  // not a group of options
+    }
+    return nullptr;
+  };
+  const CLI::App* last = &program;
+  std::string words = program.get_name();
+  for (const CLI::App* below = typed_below(*last); below != nullptr; below = typed_below(*last)) {
+    last = below;
+    words += " " + last->get_name();
+  }
+  return {.words = words, .command = describe_command(*last), .left = last->remaining(true)};
 }
 
 bool has_check(CLI::Option& option, const char* name) {
@@ -332,7 +349,10 @@ core::Result<std::string> CommandLine::parse(int count, const char* const* argum
     app_->exit(asked, answer);
     return answer.str();
   } catch (const CLI::ParseError& wrong) {
-    return core::wrong_usage(wrong.what());
+    const int code = wrong.get_exit_code();
+    const bool incomplete = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||
+                            code == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    return core::wrong_usage(usage_text(typed_command(*app_), wrong.what(), incomplete));
   }
 }
 

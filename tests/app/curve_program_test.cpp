@@ -80,7 +80,8 @@ TEST(CurveProgram, RefusesModelsAndOptionsThatDoNotFit) {
                  "is not a number of the model lj");
   expect_refusal("curve --material mica --tip-radius ''", 2, "--tip-radius: its value is empty");
   for (const char* path : {"--from 30nm", "--to -1nm", "--step 1nm"}) {
-    expect_refusal(std::string("curve --material mica --sweep tip-radius=1nm:9nm:3 ") + path, 2, "excludes --sweep");
+    expect_refusal(std::string("curve --material mica --sweep tip-radius=1nm:9nm:3 ") + path, 2,
+                   "cannot be given with --sweep");
   }
   expect_refusal("curve --model jkr --tip-radius 50nm", 2, "also needs --spring-constant");
   expect_refusal("curve --material mica --format svg --sweep tip-radius=1nm:9nm:3", 2, "csv or json");

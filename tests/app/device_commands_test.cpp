@@ -84,7 +84,7 @@ TEST(GraphicsDevice, IsChosenByName) {
   }
   const ProgramResult headset = touchafm("view --headset --gpu '" + name + "'");
   EXPECT_EQ(headset.exit_code, 2);
-  EXPECT_THAT(headset.err, HasSubstr("--headset excludes --gpu"));
+  EXPECT_THAT(headset.err, HasSubstr("--headset cannot be given with --gpu"));
 }
 
 TEST(DevicesCommand, NamesAHeadsetRuntimeThatDoesNotExist) {

@@ -9,6 +9,7 @@
 
 #include "app/options/command_line.h"
 #include "app/options/enum_option.h"
+#include "app/options/nearest_word.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/sound_options.h"
@@ -48,6 +49,49 @@ TEST_F(OptionsTest, TheVersionIsAnAnswerAndAnUnknownOptionWrongUsage) {
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().category, core::ErrorCategory::WrongUsage);
   EXPECT_THAT(wrong.error().message, HasSubstr("--fast"));
+}
+
+TEST_F(OptionsTest, WhatIsWrongIsSaidWithWhatToWriteInstead) {
+  std::string model, file;
+  int width = 0;
+  bool quick = false;
+  OptionList draw = command_.add_command("draw", "a picture");
+  OptionList of = draw.add_alternatives("subject");
+  of.add_option("--model", model, "what to draw");
+  of.add_option("--file", file, "file to draw");
+  const Option eye_width = draw.add_option("--eye-width", width, "width of a picture in pixels").within(64, 8192);
+  draw.add_flag("--quick", quick, "in a hurry").needs(eye_width);
+  command_.add_command("wall", "all screens").add_option("place", file, "where it is").required();
+  const auto wrong = [&](const std::vector<const char*>& arguments) { return parse(arguments).error().message; };
+  EXPECT_EQ(wrong({"draw", "--modle", "a"}),
+            "program draw has no option --modle (did you mean --model?); see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "--width", "9"}),
+            "program draw has no option --width (did you mean --eye-width?); see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "--fast"}), "program draw has no option --fast; see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "b"}), "program draw has no use for \"b\"; see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "--model", "b"}),
+            "--model was given 2 times; give it once; see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "--eye-width"}),
+            "--eye-width has no value; give NUMBER from 64 to 8192; see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "--quick"}), "--quick needs --eye-width; see program draw --help");
+  EXPECT_EQ(wrong({"draw"}), "give one of --model, --file; see program draw --help");
+  EXPECT_EQ(wrong({"draw", "--model", "a", "--file", "b"}),
+            "give only one of --model, --file; see program draw --help");
+  EXPECT_EQ(wrong({"wall"}), "the argument place is missing; see program wall --help");
+  EXPECT_EQ(wrong({"drow"}), "program has no command \"drow\" (did you mean draw?); see program --help");
+  EXPECT_EQ(wrong({}), "program needs one of its commands: draw, wall; see program --help");
+}
+
+TEST(NearestWord, IsTheOneWithTheFewestWrongLetters) {
+  const std::vector<std::string> words{"view", "curve", "serve", "scan", "--tip-radius"};
+  EXPECT_EQ(nearest_word("viwe", words), "view");
+  EXPECT_EQ(nearest_word("curv", words), "curve");
+  EXPECT_EQ(nearest_word("swerve", words), "serve");
+  EXPECT_EQ(nearest_word("radius", words), "--tip-radius");
+  EXPECT_EQ(nearest_word("paint", words), "");
+  EXPECT_EQ(nearest_word("x", words), "");
+  EXPECT_EQ(nearest_word("--", words), "");
+  EXPECT_EQ(nearest_word("", words), "");
 }
 
 TEST_F(OptionsTest, OnlyTheChosenCommandRunsAndExactlyOneIsChosen) {

@@ -14,9 +14,9 @@
 #include "curves/image_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/samples/hertz_curve.h"
 #include "support/image_files.h"
 #include "support/places.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 #include "vendor_image_files.h"
 

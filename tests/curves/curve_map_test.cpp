@@ -23,8 +23,8 @@
 #include "scene/samples/material_library.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/samples/hertz_curve.h"
 #include "support/places.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::curves {

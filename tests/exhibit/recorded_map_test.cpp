@@ -18,8 +18,8 @@
 #include "servo/session_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/samples/hertz_curve.h"
 #include "support/places.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::exhibit {

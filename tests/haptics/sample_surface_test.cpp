@@ -13,8 +13,8 @@
 
 #include "scene/gltf/gltf_loader.h"
 #include "scene/graph/height_field.h"
-#include "support/samples/measured_surface.h"
 #include "support/places.h"
+#include "support/samples/measured_surface.h"
 #include "support/samples/rough_surface.h"
 
 namespace sample_surface_test {

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "servo_bench.h"
-#include "support/samples/measured_curve_of.h"
-#include "support/samples/measured_surface.h"
 #include "support/no_alloc.h"
 #include "support/no_lock.h"
 #include "support/particles/gold_particles.h"
 #include "support/particles/ink_sample.h"
 #include "support/particles/soft_sample.h"
+#include "support/samples/measured_curve_of.h"
+#include "support/samples/measured_surface.h"
 #include "support/samples/rough_surface.h"
 
 namespace servo_allocation_test {

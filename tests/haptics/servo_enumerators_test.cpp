@@ -10,8 +10,8 @@
 #include "core/enumerators.h"
 #include "physics/friction/friction.h"
 #include "servo_bench.h"
-#include "support/samples/measured_curve_of.h"
 #include "support/particles/gold_particles.h"
+#include "support/samples/measured_curve_of.h"
 
 // A tick with every enumerator that reaches it from material, friction, scale, scan and renderer: each is felt, or
 // refused before the first tick. None may meet a tick that has no code for it.

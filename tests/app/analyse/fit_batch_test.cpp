@@ -19,10 +19,10 @@
 #include "curves/image_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/samples/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {

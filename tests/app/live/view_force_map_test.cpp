@@ -16,11 +16,11 @@
 #include "servo/session_file.h"
 #include "support/archives/sticky_map.h"
 #include "support/archives/stored_zip.h"
-#include "support/samples/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/pictures.h"
 #include "support/places.h"
 #include "support/run_program.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 

@@ -9,8 +9,8 @@
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/cluster/wall_model.h"
-#include "support/scratch_folder.h"
 #include "support/samples/tapped_sample.h"
+#include "support/scratch_folder.h"
 
 namespace wall_messages_test {
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options/command_line.h"
+
+namespace afm::app {
+
+// The command that was typed last.
+struct TypedCommand {
+  std::string words;  // "touchafm bench render"
+  CommandDescription command;
+  std::vector<std::string> left;  // words that fit nothing
+};
+
+// What is wrong with a command line, in the words of its user, what to write instead, and where to read on. `text` is
+// the parser's message; `incomplete`: words are left, or something required is missing, perhaps under a wrong name.
+std::string usage_text(const TypedCommand& typed, const std::string& text, bool incomplete);
+
+}  // namespace afm::app
