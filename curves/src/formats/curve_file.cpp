@@ -231,7 +231,7 @@ class PartReader {
     const SeriesPart rest = std::exchange(rest_, {rest_.first + rest_.step, rest_.step});
     const ChildMessage message = message_of(rest);
     if (message.fault) throw CurveError(message.text);
-    return finished(read_tab(message.text), reading_);
+    return finished(read_handed(message.text), reading_);
   }
 
  private:
