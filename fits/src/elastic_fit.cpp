@@ -64,7 +64,9 @@ std::optional<Unknowns> best_start(std::span<const Sample> samples, const FitSet
   for (const double start : starts) {
     auto unknowns = problem.start_at(start);
     if (!unknowns) continue;
-    const double squares = problem.minimise(*unknowns);
+    // the fit to all samples goes on from there
+    constexpr double kRough = 1e-6;
+    const double squares = problem.minimise(*unknowns, {}, {}, kRough);
     if (!is_usable(*unknowns, squares) || !(squares < least)) continue;
     least = squares;
     best = unknowns;
