@@ -34,7 +34,7 @@ using testing::HasSubstr;
 constexpr std::uint32_t kColumns = 3, kRows = 2, kCurves = kColumns * kRows;
 constexpr std::uint32_t kExtend = 30, kDwell = 5, kRetract = 25, kPoints = kExtend + kDwell + kRetract;
 constexpr double kSpring = 0.05, kStepM = 10e-9, kSlope = 0.25;
-constexpr std::uint32_t kUnused = 1 - kPoints;  // where a segment that is not there begins
+constexpr std::uint32_t kUnused = 1 - kPoints;  // beginning of a segment that is not there
 
 struct Map {
   std::string note = "SpringConstant: 0.05\rInvOLS: 6e-08\rMicroscopeModel: Cypher\rDate: 2026-11-30\r";

@@ -217,7 +217,7 @@ TEST(NanoscopeVolume, OfPeakForceTappingIsRefusedIfItsSwingIsUnknown) {
 
 // The header need not describe the swing of a capture with a channel of its height, whose sensor counts either way.
 TEST(NanoscopeVolume, OfPeakForceTappingHasTheHeightsOfItsChannel) {
-  constexpr double kSensor_m = 1e-4 * 100e-9;  // of an integer
+  constexpr double kSensor_m = 1e-4 * 100e-9;  // height of an integer
   for (const char* name : {"Height Sensor", "Height"}) {
     for (const int sign : {1, -1}) {
       Volume sensed;

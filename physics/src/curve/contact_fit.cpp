@@ -140,7 +140,7 @@ class Misfit {
     PlaceFit best{-1.0, contact, 0.0, indenter};
     const ForceShapes& shapes = ForceShapes::of(indenter);
     const std::vector<ForceShape::Place> places = places_below(contact);
-    std::array<double, kSections + 4> known{};  // of the shares that were tried, many of which come again
+    std::array<double, kSections + 4> known{};  // values of the shares that were tried
     std::array<std::size_t, kSections + 4> tried{};
     std::size_t count = 0;
     const auto taken = [&](double share) {
