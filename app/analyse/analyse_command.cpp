@@ -225,6 +225,13 @@ std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions&
                  .show_default()
                  .type_name("INDEX"));
   for (const NamedOption& of_fit : add_fit_options(command, options.fit)) for_curves(of_fit.name, of_fit.option);
+  for_curves("--threads",
+             command
+                 .add_option("--threads", options.threads,
+                             "with --fit and a folder: threads that read and fit; the results do not depend on it; "
+                             "default: one for each core")
+                 .within(1, 256)
+                 .type_name("NUMBER"));
   for_curves("--out", command
                           .add_option("--out", options.out,
                                       "write a plot of the curve (SVG) to FILE; with --fit a name that does not end in "
@@ -330,9 +337,14 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
     if (const auto checked = prepare(options->fit); !checked) return checked;
     if (wants_table(*files, *options)) {
       if (const auto checked = check_batch(*options, of_kind); !checked) return checked;
-      return fit_files(*files, *options, std::thread::hardware_concurrency());
+      return fit_files(
+          *files, *options,
+          options->threads > 0 ? static_cast<unsigned>(options->threads) : std::thread::hardware_concurrency());
     }
     if (const auto checked = check_options(options->file, of_kind); !checked) return checked;
+    if (options->threads > 0) {
+      return wrong_usage("--threads is for a table of fits: add --fit SHAPE --out FOLDER, or leave it out");
+    }
     if (!options->out.empty()) {
       if (const auto checked = check_plot(options->out); !checked) return checked;
     }

@@ -21,6 +21,7 @@ struct AnalyseOptions {
   bool json = false;
   std::string out;  // SVG of the curve, in addition to the text
   curves::FitOptions fit;
+  int threads = 0;      // number for a table of fits; zero: one for each core
   std::string channel;  // name of an image's channel
   physics::Levelling levelling = physics::Levelling::Plane;
 };

@@ -153,13 +153,14 @@ void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureO
   }
 }
 
-// Shows a whole map in the panels as it was in the frame; returns what was seen of its curves.
+// Shows a map in the panels as it was in the frame; returns what was seen of the curves of one that was felt whole.
 MapView show_map(const servo::WallFrame& frame, const std::vector<curves::SampleModel>& models,
                  std::optional<std::size_t> material, ViewPanels& panels, scene::TipState& tip) {
-  if (!frame.map || !material || !models[*material].felt_map) return {};
+  if (!frame.map || !material || !models[*material].pixel) return {};
   const servo::RecordedMapView& map = *frame.map;
   if (const auto quantity = exhibit::map_quantity_of(map.quantity))
     panels.show_map_quantity(*models[*material].pixel, *quantity);
+  if (!models[*material].felt_map) return {};
   tip.here = {.reduced_modulus_pa = map.reduced_modulus_pa, .adhesion_j_per_m2 = map.adhesion_j_per_m2};
   return {.slice = map.slice, .equal_force_n = map.equal_force_n};
 }
@@ -334,7 +335,7 @@ void add_render_command(OptionList& program, const CommandContext& context) {
       .needs(session);
   command
       .add_option("--force-map", options->files.force_map,
-                  "file of the force map that the session felt whole, if it no longer lies where it was recorded")
+                  "file of the force map that the session felt, if it no longer lies where it was recorded")
       .needs(session)
       .type_name("FILE");
   command.add_option("--out", options->out, "PNG file to write").picture_file().type_name("FILE.png");

@@ -18,8 +18,22 @@ namespace afm::app {
 
 namespace {
 
+// The curve of a session without its map, as a sample.
+scene::MaterialEntry entry_of_curve(const servo::RecordedSession& session) {
+  scene::MaterialEntry entry;
+  entry.name = session.material;
+  entry.title = "Measured curve";
+  if (session.curve->column >= 0) entry.title += fmt::format(" ({},{})", session.curve->column, session.curve->row);
+  entry.look = scene::kPaperMaterials.front();
+  entry.contact = session.parameters.contact;
+  return entry;
+}
+
 core::Result<exhibit::ExhibitFiles> files_for(const servo::RecordedSession& session, const std::string& path,
-                                              exhibit::ExhibitFiles files) {
+                                              const exhibit::ExhibitFiles& given) {
+  auto with_map = exhibit::with_recorded_map(session, path, given);
+  if (!with_map) return with_map;
+  exhibit::ExhibitFiles files = std::move(*with_map);
   const auto& paper = scene::kPaperMaterials;
   if (!session.wall.empty() && files.shown.empty()) {
     files.shown = session.shown;
@@ -27,37 +41,33 @@ core::Result<exhibit::ExhibitFiles> files_for(const servo::RecordedSession& sess
   }
   const bool shown_anyway = !files.materials.empty() || !files.shown.empty() ||
                             std::find(paper.begin(), paper.end(), session.material) != paper.end();
-  if (session.curve) {
-    scene::MaterialEntry entry;
-    entry.name = session.material;
-    entry.title = "Measured curve";
-    if (session.curve->column >= 0) entry.title += fmt::format(" ({},{})", session.curve->column, session.curve->row);
-    entry.look = paper.front();
-    entry.contact = session.parameters.contact;
-    files.added.push_back(entry);
-  } else if (!shown_anyway && !session.law_map) {
+  if (session.curve && files.force_map.empty()) {
+    files.added.push_back(entry_of_curve(session));
+  } else if (!shown_anyway && !session.law_map && !session.curve) {
     files.shown = {session.material};
   }
-  if (!session.particles) return exhibit::with_recorded_map(session, path, std::move(files));
+  if (!session.particles) return files;
   if (!files.sample.empty()) {
     return core::wrong_usage("--sample: the session's particles rest on a level sample of their own; leave it out");
   }
   files.recorded_particles =
       std::make_shared<const scene::ParticleSet>(scene::recorded_set(session.particles->set, files.assets_dir));
-  return exhibit::with_recorded_map(session, path, std::move(files));
+  return files;
 }
 
 // The session's own sample, felt as recorded.
 core::Result<curves::SampleModel> felt_model(const servo::RecordedSession& session, const scene::MaterialEntry& entry,
                                              const exhibit::Stage& stage) {
-  if (stage.pixel) {
+  if (stage.pixel && stage.pixel->felt_map) {
     curves::SampleModel map = *stage.pixel;
     map.parameters = session.parameters;
     return map;
   }
   std::vector<scene::SharedMeasuredCurve> recorded;
   if (session.curve) recorded.push_back(*session.curve);
-  return curves::make_sample_model(entry, session.parameters, recorded);
+  auto model = curves::make_sample_model(entry, session.parameters, recorded);
+  if (model && stage.pixel) model->pixel = stage.pixel->pixel;
+  return model;
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ struct RecordedSession;
 namespace afm::app {
 
 // Loads the wall as far as the session, read from `path`, records it: the paper's three materials together, any other
-// material by itself, particles as they lay, and a map that was felt whole with its curves (exhibit/recorded_map.h).
+// material by itself, particles as they lay, and a map with its curves or its picture (exhibit/recorded_map.h).
 // Its materials include the session's own. `files` are those that the user names. Errors name the session if it is at
 // fault.
 core::Result<exhibit::Stage> stage_of_session(const servo::RecordedSession& session, const std::string& path,

@@ -17,7 +17,7 @@ namespace afm::app {
 core::Result<void> take_map_options(const ViewOptions& options, curves::TappedHand& tapping,
                                     exhibit::ExhibitFiles& files);
 
-// Names the file of a map that is felt whole, if sessions of it are recorded.
+// Names the file of the map, if sessions of it are recorded.
 core::Result<void> keep_map(const exhibit::Stage& stage, const exhibit::ExhibitFiles& files, ViewSettings& settings);
 
 }  // namespace afm::app

@@ -102,7 +102,7 @@ void MapControl::check_vibration() {
 
 void MapControl::add_to_session(servo::WallFrame& shown) const {
   const curves::SampleModel* sample = map();
-  if (sample == nullptr) return;
+  if (sample == nullptr) return add_pixel_to_session(shown);
   parts_.panels.picture_of(*sample->pixel);
   const scene::LawHere& here = parts_.servo.link().tip().here;
   const MapView seen = view();
@@ -111,6 +111,15 @@ void MapControl::add_to_session(servo::WallFrame& shown) const {
                                      .equal_force_n = seen.equal_force_n,
                                      .reduced_modulus_pa = here.reduced_modulus_pa,
                                      .adhesion_j_per_m2 = here.adhesion_j_per_m2};
+}
+
+// What the picture of the panel shows, in which the felt pixel is marked.
+void MapControl::add_pixel_to_session(servo::WallFrame& shown) const {
+  if (!wall_.material) return;
+  const curves::SampleModel& sample = parts_.choice.felt()[*wall_.material];
+  if (!sample.pixel) return;
+  parts_.panels.picture_of(*sample.pixel);
+  shown.map = servo::RecordedMapView{.quantity = std::string(exhibit::name_of(parts_.panels.map_quantity()))};
 }
 
 void MapControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {

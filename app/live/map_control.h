@@ -15,7 +15,8 @@ namespace afm::app {
 
 struct ViewParts;
 
-// A force map that is felt whole, on its sample: key F10 chooses what is seen of its curves.
+// A force map that is felt whole, on its sample: key F10 chooses what is seen of its curves. Sessions of one pixel keep
+// what its picture shows.
 class MapControl final : public ViewControl {
  public:
   // `equal_force_n` is that of the surface that is shown first; empty: none.
@@ -34,6 +35,7 @@ class MapControl final : public ViewControl {
 
   const curves::SampleModel* map() const;  // null: another sample, or none, is under the tip
   MapView view() const;
+  void add_pixel_to_session(servo::WallFrame& shown) const;
   void check_vibration();  // reports a device that leaves it out
 
   ViewParts& parts_;

@@ -32,7 +32,7 @@ struct ViewSettings {
   bool unattended = false;    // staff keys locked; starts over and demonstrates itself when no visitor is there
   double idle_s = 60;         // seconds without input before the demonstration starts
   std::string record_folder;  // folder for sessions; empty: none are kept
-  std::optional<servo::RecordedForceMap> force_map;  // file of the map that is felt whole, for sessions; empty: none
+  std::optional<servo::RecordedForceMap> force_map;  // file of the map, for its sessions; empty: none
   std::optional<double> equal_force_n;               // surface over a force map that is shown first; empty: none
   LiveSoundSettings sound;
   std::shared_ptr<servo::KeptBeat> kept;  // beat of a kiosk's window; shared because settings are copied

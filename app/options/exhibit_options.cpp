@@ -99,10 +99,11 @@ constexpr std::array kFeltParts{FeltPart{"pixel", false}, FeltPart{"map", true}}
 std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files) {
   const Option map =
       command
-          .add_option("--force-map", files.force_map,
-                      "map of force curves from an instrument (.jpk-force-map, .jpk-qi-data, a Nanoscope force volume, "
-                      ".nid, .nhf or .h5), felt pixel by pixel: the panel shows its picture, and the curve of the "
-                      "chosen pixel is the force law")
+          .add_option(
+              "--force-map", files.force_map,
+              "map of force curves from an instrument (.jpk-force-map, .jpk-qi-data, a Nanoscope force volume, "
+              ".nid, .nhf, .ardf or .h5), felt pixel by pixel: the panel shows its picture, and the curve of the "
+              "chosen pixel is the force law")
           .type_name("FILE");
   const auto read = [&files](const std::string& text) -> core::Result<void> {
     const auto place = curves::parse_map_place(text);

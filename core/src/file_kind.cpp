@@ -68,7 +68,6 @@ constexpr std::array kSignatures{
     Signature{"\x89PNG\r\n\x1A\n"sv, 0, {"a PNG image", FileRole::Picture}},
     Signature{"\xFF\xD8\xFF"sv, 0, {"a JPEG image", FileRole::Picture}},
     Signature{"BM"sv, 0, {"a BMP image", FileRole::Picture}},
-    Signature{"ARDF"sv, 8, {"a force map of Asylum Research (.ardf)", FileRole::LabFile}},
     Signature{"\x01\xB0\x93\xFF"sv, 0, {"a file of NT-MDT (.mdt)", FileRole::LabFile}},
     Signature{"[DataSet]"sv, 0, {"a file of Nanosurf (.nid)", FileRole::LabFile}},
     Signature{":NANONIS_VERSION:"sv, 0, {"a scan of Nanonis (.sxm)", FileRole::LabFile}},

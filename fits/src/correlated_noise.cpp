@@ -30,7 +30,8 @@ class LaggedProducts {
       for (std::size_t c = 1; c < columns_; ++c)
         rows[t * columns_ + c] = jacobian[(c - 1) * n + t] / norm(jacobian, n, c - 1);
     }
-    sums_.assign(kLags * kLags * columns_ * columns_, 0.0);
+    const std::size_t entries = columns_ * (columns_ + 1) / 2;
+    sums_.reserve(kLags * (kLags + 1) / 2 * entries);
     for (std::size_t i = 0; i < kLags; ++i) {
       for (std::size_t j = 0; j <= i; ++j) add(rows, i, j);
     }
@@ -39,12 +40,17 @@ class LaggedProducts {
   std::size_t columns() const { return columns_; }
   double count() const { return static_cast<double>(count_); }
 
-  double at(std::size_t lag_a, std::size_t lag_b, std::size_t a, std::size_t b) const {
-    if (lag_b > lag_a) {
-      std::swap(lag_a, lag_b);
-      std::swap(a, b);
+  // The products of the whitened columns, of which the filter is 1 and the negative coefficients: the triangle of a
+  // symmetric matrix, row by row, up to the diagonal.
+  void whitened(std::span<const double> filter, std::vector<double>& triangle) const {
+    triangle.assign(columns_ * (columns_ + 1) / 2, 0.0);
+    const double* sums = sums_.data();
+    for (std::size_t i = 0; i < filter.size(); ++i) {
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double weight = filter[i] * filter[j];
+        for (double& entry : triangle) entry += weight * *sums++;
+      }
     }
-    return sums_[((lag_a * kLags + lag_b) * columns_ + a) * columns_ + b];
   }
 
  private:
@@ -57,8 +63,9 @@ class LaggedProducts {
     return largest > 0.0 ? largest : 1.0;
   }
 
+  // Of two different lags the sum of both orders, since the filter weighs them alike.
   void add(const std::vector<double>& rows, std::size_t i, std::size_t j) {
-    double* sums = &sums_[(i * kLags + j) * columns_ * columns_];
+    std::vector<double> sums(columns_ * columns_, 0.0);
     for (std::size_t t = kMostNoiseOrder; t < kMostNoiseOrder + count_; ++t) {
       const double* a = &rows[(t - i) * columns_];
       const double* b = &rows[(t - j) * columns_];
@@ -66,51 +73,56 @@ class LaggedProducts {
         for (std::size_t column = 0; column < columns_; ++column) sums[row * columns_ + column] += a[row] * b[column];
       }
     }
-  }
-
-  std::size_t columns_, count_;
-  std::vector<double> sums_;
-};
-
-// Coefficients of a stationary process from its partial correlations (Durbin & Levinson).
-std::vector<double> coefficients_of(std::span<const double> partial) {
-  std::vector<double> c;
-  for (std::size_t k = 0; k < partial.size(); ++k) {
-    std::vector<double> next(c);
-    for (std::size_t j = 0; j < k; ++j) next[j] = c[j] - partial[k] * c[k - 1 - j];
-    next.push_back(partial[k]);
-    c = std::move(next);
-  }
-  return c;
-}
-
-// Twice the negative restricted log-likelihood, but for a constant.
-double deviance(const LaggedProducts& products, std::span<const double> coefficients) {
-  std::array<double, kLags> filter{1.0};
-  for (std::size_t j = 0; j < coefficients.size(); ++j) filter[j + 1] = -coefficients[j];
-  const std::size_t size = products.columns();
-  std::vector<double> whitened(size * size, 0.0);
-  for (std::size_t i = 0; i <= coefficients.size(); ++i) {
-    for (std::size_t j = 0; j <= coefficients.size(); ++j) {
-      const double weight = filter[i] * filter[j];
-      for (std::size_t a = 0; a < size; ++a) {
-        for (std::size_t b = 0; b < size; ++b) whitened[a * size + b] += weight * products.at(i, j, a, b);
+    for (std::size_t row = 0; row < columns_; ++row) {
+      for (std::size_t column = 0; column <= row; ++column) {
+        const double one = sums[row * columns_ + column], other = sums[column * columns_ + row];
+        sums_.push_back(i == j ? one : one + other);
       }
     }
   }
+
+  std::size_t columns_, count_;
+  std::vector<double> sums_;  // a triangle of columns for each pair of lags
+};
+
+// Coefficients of a stationary process from its partial correlations (Durbin & Levinson).
+Orders coefficients_in(std::span<const double> partial) {
+  Orders c{};
+  for (std::size_t k = 0; k < partial.size(); ++k) {
+    const Orders before = c;
+    for (std::size_t j = 0; j < k; ++j) c[j] = before[j] - partial[k] * before[k - 1 - j];
+    c[k] = partial[k];
+  }
+  return c;
+}
+std::vector<double> coefficients_of(std::span<const double> partial) {
+  const Orders c = coefficients_in(partial);
+  return {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(partial.size())};
+}
+
+// Twice the negative restricted log-likelihood for these partial correlations, but for a constant. The triangle is
+// overwritten: a search asks a thousand times.
+double deviance(const LaggedProducts& products, std::span<const double> partial, std::vector<double>& triangle) {
+  std::array<double, kLags> filter{1.0};
+  const Orders coefficients = coefficients_in(partial);
+  for (std::size_t j = 0; j < partial.size(); ++j) filter[j + 1] = -coefficients[j];
+  products.whitened(std::span(filter).first(partial.size() + 1), triangle);
   // eliminates the columns of the fit one by one: what is left of the residual's square is the sum after the fit
+  const auto row = [&triangle](std::size_t a) { return &triangle[a * (a + 1) / 2]; };
   double log_determinant = 0.0;
-  for (std::size_t pivot = size - 1; pivot >= 1; --pivot) {
-    const double p = whitened[pivot * size + pivot];
+  for (std::size_t pivot = products.columns() - 1; pivot >= 1; --pivot) {
+    const double* last = row(pivot);
+    const double p = last[pivot];
     if (!(p > 0.0)) return kNone;
     log_determinant += std::log(p);
     for (std::size_t a = 0; a < pivot; ++a) {
-      const double factor = whitened[a * size + pivot] / p;
-      for (std::size_t b = 0; b < pivot; ++b) whitened[a * size + b] -= factor * whitened[pivot * size + b];
+      const double factor = last[a] / p;
+      double* here = row(a);
+      for (std::size_t b = 0; b <= a; ++b) here[b] -= factor * last[b];
     }
   }
-  const double free = products.count() - static_cast<double>(size - 1);
-  return whitened.front() > 0.0 ? free * std::log(whitened.front()) + log_determinant : kNone;
+  const double free = products.count() - static_cast<double>(products.columns() - 1);
+  return triangle.front() > 0.0 ? free * std::log(triangle.front()) + log_determinant : kNone;
 }
 
 // Minimum over the partial correlations, one after the other by golden sections, until none moves.
@@ -119,7 +131,8 @@ std::vector<double> best_of_order(const LaggedProducts& products, std::size_t or
   constexpr int kRounds = 12;
   constexpr double kGolden = std::numbers::phi - 1.0;
   partial.resize(order, 0.0);
-  const auto value = [&] { return deviance(products, coefficients_of(partial)); };
+  std::vector<double> triangle;
+  const auto value = [&] { return deviance(products, partial, triangle); };
   for (int round = 0; round < kRounds; ++round) {
     double moved = 0.0;
     for (double& one : partial) {
@@ -158,11 +171,11 @@ std::vector<double> noise_coefficients(std::span<const double> residuals, std::s
   constexpr std::size_t kFewest = 10 * kMostNoiseOrder;
   if (residuals.size() < kFewest) return {};
   const LaggedProducts products(residuals, jacobian);
-  std::vector<double> partial, best;
-  double least = deviance(products, {});
+  std::vector<double> partial, best, triangle;
+  double least = deviance(products, {}, triangle);
   for (std::size_t order = 1; order <= kMostNoiseOrder; ++order) {
     partial = best_of_order(products, order, partial);
-    const double criterion = deviance(products, coefficients_of(partial)) + 2.0 * static_cast<double>(order);
+    const double criterion = deviance(products, partial, triangle) + 2.0 * static_cast<double>(order);
     if (criterion < least) {
       least = criterion;
       best = partial;

@@ -23,8 +23,8 @@ CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setu
 }
 
 // In series with the lever, or against the tip (F8): d = z_c - (Z + F_measured/k).
-CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, std::size_t sample) const {
-  const double modulus_pa = std::exp(unknowns[kModulus]), spring = setup_.spring_n_per_m;
+CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, double modulus_pa, std::size_t sample) const {
+  const double spring = setup_.spring_n_per_m;
   const double measured_n = force_n_[sample] - setup_.zero_n;
   if (setup_.against == Against::Tip) {
     const double depth_m = unknowns[kContact] - (z_m_[sample] + measured_n / spring);
@@ -61,7 +61,8 @@ std::vector<CurveProblem::Bent> CurveProblem::all_held(const Unknowns& unknowns)
 std::vector<CurveProblem::Bent> CurveProblem::all_bent(const Unknowns& unknowns) const {
   if (is_adhesive_) return all_held(unknowns);
   std::vector<Bent> all(size());
-  for (std::size_t t = 0; t < size(); ++t) all[t] = bent(unknowns, t);
+  const double modulus_pa = std::exp(unknowns[kModulus]);
+  for (std::size_t t = 0; t < size(); ++t) all[t] = bent(unknowns, modulus_pa, t);
   return all;
 }
 
@@ -123,8 +124,8 @@ std::optional<Unknowns> CurveProblem::start_at(double contact_m) const {
   return start;
 }
 
-double CurveProblem::minimise(Unknowns& unknowns, std::span<const double> noise,
-                              std::optional<std::size_t> held) const {
+double CurveProblem::minimise(Unknowns& unknowns, std::span<const double> noise, std::optional<std::size_t> held,
+                              double reduction) const {
   const std::size_t n = size(), left = n - noise.size();
   std::vector<std::size_t> freed;
   for (std::size_t c = 0; c < unknown_count(); ++c) {
@@ -159,7 +160,7 @@ double CurveProblem::minimise(Unknowns& unknowns, std::span<const double> noise,
   std::vector<double> free;
   free.reserve(freed.size());
   for (const std::size_t c : freed) free.push_back(unknowns[c]);
-  const double squares = least_squares(evaluate, left, free);
+  const double squares = least_squares(evaluate, left, free, reduction);
   for (std::size_t c = 0; c < freed.size(); ++c) unknowns[freed[c]] = free[c];
   return squares;
 }

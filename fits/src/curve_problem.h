@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fits/elastic_fit.h"
+#include "least_squares.h"
 
 namespace afm::fits {
 
@@ -29,8 +30,10 @@ class CurveProblem {
   // pushes there.
   std::optional<Unknowns> start_at(double contact_m) const;
 
-  // Minimum of the whitened residuals. The unknown `held` stays. Returns the sum of squares.
-  double minimise(Unknowns& unknowns, std::span<const double> noise = {}, std::optional<std::size_t> held = {}) const;
+  // Minimum of the whitened residuals. The unknown `held` stays. Returns the sum of squares. `reduction` as of
+  // least_squares().
+  double minimise(Unknowns& unknowns, std::span<const double> noise = {}, std::optional<std::size_t> held = {},
+                  double reduction = kWholeReduction) const;
 
   // Model less measured, and its derivatives, column by column; without noise's whitening.
   std::vector<double> residuals(const Unknowns& unknowns) const;
@@ -47,7 +50,7 @@ class CurveProblem {
   std::vector<Bent> all_bent(const Unknowns& unknowns) const;
 
  private:
-  Bent bent(const Unknowns& unknowns, std::size_t sample) const;
+  Bent bent(const Unknowns& unknowns, double modulus_pa, std::size_t sample) const;
   std::vector<Bent> all_held(const Unknowns& unknowns) const;
   void fill(const Unknowns& unknowns, const std::vector<Bent>& bent, std::span<double> residuals) const;
   void fill_jacobian(const std::vector<Bent>& bent, std::span<double> jacobian) const;

@@ -64,7 +64,9 @@ std::optional<Unknowns> best_start(std::span<const Sample> samples, const FitSet
   for (const double start : starts) {
     auto unknowns = problem.start_at(start);
     if (!unknowns) continue;
-    const double squares = problem.minimise(*unknowns);
+    // the fit to all samples goes on from there
+    constexpr double kRough = 1e-6;
+    const double squares = problem.minimise(*unknowns, {}, {}, kRough);
     if (!is_usable(*unknowns, squares) || !(squares < least)) continue;
     least = squares;
     best = unknowns;
@@ -149,15 +151,17 @@ Profiled profiled(std::size_t unknown, const CurveProblem& problem, const Ended&
   return {{low.value, high.value}, low.lower ? low.lower : high.lower};
 }
 
-// With its interval; a better minimum that is met on the way to an end becomes the start of another fit. Empty without
-// a contact.
+// With its interval, if one is wanted; a better minimum that is met on the way to an end becomes the start of another
+// fit. Empty without a contact.
 std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::span<const Sample> samples,
-                                             const Unknowns& start, bool white) {
+                                             const Unknowns& start, const FitSetup& setup) {
   constexpr int kMostRestarts = 4;
+  const bool white = setup.white;
   const double rounding_n = kRounding * force_range_n(samples);
   Minimum found{.ended = minimum(problem, start, white)};
   for (int restart = 0; restart <= kMostRestarts; ++restart) {
     if (!is_contact(found.ended, samples)) return std::nullopt;
+    if (!setup.interval) break;
     Profiled last = profiled(kModulus, problem, found.ended, rounding_n);
     found.log_modulus = last.interval;
     if (problem.is_adhesive() && !last.lower) {
@@ -222,7 +226,7 @@ std::optional<ElasticFit> fit_shape(std::span<const Sample> samples, const FitSe
     return std::nullopt;
   }
   const CurveProblem problem(samples, setup);
-  const auto best = minimum_with_interval(problem, samples, *start, setup.white);
+  const auto best = minimum_with_interval(problem, samples, *start, setup);
   if (!best) {
     why = "no modulus fits: the sample is not pushed, or the curve is no contact's";
     return std::nullopt;

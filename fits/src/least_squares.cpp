@@ -26,8 +26,9 @@ int residuals_or_jacobian(void* evaluate, int residual_count, int parameter_coun
 
 }  // namespace
 
-double least_squares(const Residuals& evaluate, std::size_t residual_count, std::vector<double>& parameters) {
-  constexpr double kReduction = 1e-12, kStep = 1e-9, kFactor = 1.0;
+double least_squares(const Residuals& evaluate, std::size_t residual_count, std::vector<double>& parameters,
+                     double reduction) {
+  constexpr double kStep = 1e-9, kFactor = 1.0;
   constexpr int kMostEvaluations = 60, kOwnScales = 1;
   const std::size_t n = parameters.size(), m = residual_count;
   if (m < n) return std::numeric_limits<double>::quiet_NaN();
@@ -36,9 +37,9 @@ double least_squares(const Residuals& evaluate, std::size_t residual_count, std:
   int evaluations = 0, jacobians = 0;
   Residuals function = evaluate;
   const int end = lmder(residuals_or_jacobian, &function, static_cast<int>(m), static_cast<int>(n), parameters.data(),
-                        residuals.data(), jacobian.data(), static_cast<int>(m), kReduction, kStep, 0.0,
-                        kMostEvaluations, diagonal.data(), kOwnScales, kFactor, 0, &evaluations, &jacobians,
-                        pivots.data(), qtf.data(), a.data(), b.data(), c.data(), d.data());
+                        residuals.data(), jacobian.data(), static_cast<int>(m), reduction, kStep, 0.0, kMostEvaluations,
+                        diagonal.data(), kOwnScales, kFactor, 0, &evaluations, &jacobians, pivots.data(), qtf.data(),
+                        a.data(), b.data(), c.data(), d.data());
   // 0: wrong arguments. 5, too many evaluations, is a minimum but for its last digits: samples that enter the contact
   // make kinks
   if (end <= 0) return std::numeric_limits<double>::quiet_NaN();

@@ -6,7 +6,10 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "app/micro/fit_benchmarks.h"
 #include "app/micro/physics_benchmarks.h"
 
 namespace afm::app {
@@ -70,6 +73,32 @@ TEST(PhysicsBenchmarks, HaveNamesOfTheirOwnAndBars) {
     EXPECT_GT(each.bar_s, 0.0) << each.name;
   }
   EXPECT_EQ(names.size(), 16U);
+}
+
+TEST(FitBenchmarks, HaveNamesOfTheirOwnBarsAndRatios) {
+  std::set<std::string> names;
+  std::vector<BenchmarkFigure> figures;
+  for (const BenchmarkCase& each : fit_benchmarks()) {
+    EXPECT_TRUE(names.insert(each.name).second) << each.name;
+    EXPECT_GT(each.bar_s, 0.0) << each.name;
+    const double median_s = each.name == "fit without interval"   ? 1e-3
+                            : each.name == "a curve, two threads" ? 2e-3
+                                                                  : 3e-3;
+    figures.push_back({.name = each.name, .bar_s = each.bar_s, .median_s = median_s, .min_s = 0.0, .max_s = 0.0});
+  }
+  const std::string ratios = fit_ratios(figures);
+  EXPECT_THAT(ratios, HasSubstr("a fit with its interval takes 3.00 times as long as without: at most 4\n"));
+  EXPECT_THAT(ratios, HasSubstr("two threads fit 1.50 times as many curves as one: at least 1.8\n"));
+  EXPECT_THAT(ratios, HasSubstr("10,000 curves on two threads: 20.0 s, at most 60 s\n"));
+  figures.pop_back();
+  EXPECT_EQ(fit_ratios(figures), "");
+}
+
+// Each of them fits what it measures.
+TEST(FitBenchmarks, FitTheirCurves) {
+  const auto figures = run_benchmarks({fit_benchmarks().at(1)});
+  ASSERT_TRUE(figures) << figures.error().message;
+  EXPECT_GT(figures->front().median_s, 0.0);
 }
 
 }  // namespace benchmark_test

@@ -33,7 +33,8 @@ using ::testing::HasSubstr;
 TEST(CommandLine, EveryCommandExplainsItself) {
   const ProgramResult all = run_touchafm("--help");
   EXPECT_EQ(all.exit_code, 0);
-  std::vector<std::string> commands{"bench cluster", "bench haptics", "bench physics", "bench render"};
+  std::vector<std::string> commands{"bench cluster", "bench fits",    "bench haptics",
+                                    "bench maps",    "bench physics", "bench render"};
   for (const Command& command : kCommands) {
     EXPECT_THAT(all.out, HasSubstr("\n  " + std::string(command.name) + " "));
     commands.emplace_back(command.name);

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
+#include "formats/tab_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
 #include "support/samples/hertz_curve.h"
@@ -40,6 +42,43 @@ Read read_part(const std::string& path, std::size_t count, const SeriesPart& par
     return read.indexes.size() < most;
   });
   return read;
+}
+
+// From the confined child that reads it.
+TEST(HandedCurve, IsTheSameBitForBitAndWhole) {
+  RecordedCurve curve = risen(3);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) curve.time_s.push_back(static_cast<double>(i) / 3.0);
+  curve.points[5].force = physics::Force(1.0 / 3.0 * 1e-9);
+  curve.metadata.remarks = {"it is a test"};
+  curve.metadata.position = CurvePosition{1e-6 / 7.0, -2e-6};
+  curve.metadata.parameters = {{"tip_radius_m", "5e-08"}};
+  const std::string bytes = handed_bytes(curve);
+  const RecordedCurve again = read_handed(bytes);
+  ASSERT_EQ(again.points.size(), curve.points.size());
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    EXPECT_EQ(again.points[i].z, curve.points[i].z);
+    EXPECT_EQ(again.points[i].force, curve.points[i].force);
+    EXPECT_EQ(again.points[i].branch, curve.points[i].branch);
+  }
+  EXPECT_EQ(again.time_s, curve.time_s);
+  EXPECT_EQ(again.metadata.remarks, curve.metadata.remarks);
+  EXPECT_EQ(again.metadata.parameters, curve.metadata.parameters);
+  EXPECT_EQ(again.metadata.position->x_m, curve.metadata.position->x_m);
+  EXPECT_EQ(again.metadata.spring_constant, curve.metadata.spring_constant);
+  EXPECT_EQ(read_handed(tab_bytes(curve)).points.size(), curve.points.size()) << "from a program that writes .tab";
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_ANY_THROW(read_handed(std::string_view(bytes).substr(0, size))) << size;
+  }
+  for (std::size_t at = 1; at < 25; ++at) {
+    std::string damaged = bytes;
+    damaged[at] = '\x7f';
+    try {
+      read_handed(damaged);  // a count of which bytes are missing, or whether there are times
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+    EXPECT_GE(at, 17U);
+  }
 }
 
 TEST(CurveSeries, OfAMapIsReadByPartsInOrder) {

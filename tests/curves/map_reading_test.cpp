@@ -50,13 +50,32 @@ TEST(MapReadingText, LeavesOutWhatIsNotGiven) {
   EXPECT_FALSE(read->calibration.sensitivity_m_per_v);
 }
 
+// A pixel is felt by its curve: the map need not be fitted, or by a shape that is no law of force.
+TEST(MapReadingText, MayHaveNoFitOrThatOfALayer) {
+  const auto bare = map_reading_of(text_of(MapReading{}));
+  ASSERT_TRUE(bare) << bare.error().message;
+  EXPECT_FALSE(bare->fit.shape);
+  MapReading layer;
+  layer.fit.shape = fits::Shape::LayerExactCone;
+  layer.fit.half_angle_rad = 0.31;
+  layer.fit.layer_m = 3e-7;
+  layer.fit.base = fits::Base::Sliding;
+  auto read = map_reading_of(text_of(layer));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->fit.half_angle_rad, 0.31);
+  EXPECT_EQ(read->fit.layer_m, 3e-7);
+  EXPECT_EQ(read->fit.base, fits::Base::Sliding);
+  EXPECT_TRUE(prepare(read->fit));
+}
+
 TEST(MapReadingText, IsRefusedIfItIsDamaged) {
   const auto refusal = [](const std::string& text) {
     const auto read = map_reading_of(text);
     return read ? std::string("accepted") : read.error().message;
   };
   EXPECT_THAT(refusal("no"), HasSubstr("the reading of its force map is damaged: "));
-  EXPECT_THAT(refusal("{}"), HasSubstr("fit"));
+  EXPECT_THAT(refusal(R"({"fit":3})"), HasSubstr("damaged"));
+  EXPECT_THAT(refusal(R"({"base":"sticky"})"), HasSubstr("there is no base \"sticky\""));
   EXPECT_THAT(refusal(R"({"fit":"cube"})"), HasSubstr("there is no fit \"cube\""));
   EXPECT_THAT(refusal(R"({"fit":"jkr","radius_m":1.0})"), HasSubstr("radius_m: 1.0 is outside 100pm to 1mm"));
   EXPECT_THAT(refusal(R"({"fit":"jkr","radius_m":"wide"})"), HasSubstr("damaged"));

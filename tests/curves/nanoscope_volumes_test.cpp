@@ -38,7 +38,18 @@ struct Volume {
   };
   std::size_t curves = kCurves;
   bool swings = false;  // deflection that counts the time in a period
+  std::string sensor_name = "Height Sensor";
+  int sensed = 0;  // 1, -1: both channels swing, with this sign of the sensor
 };
+
+// Time of a point, in an order in which each branch is stored from the sample outwards or back.
+std::size_t time_of(int branch, std::size_t point) { return branch == 0 ? kPoints - 1 - point : kPoints + point; }
+
+// A swing of 1000 integers about 0, lowest 11.75 points after the beginning of a period.
+constexpr double kTurn = 11.75;
+int swing_at(std::size_t time) {
+  return static_cast<int>(std::lround(-1000.0 * std::cos(2.0 * M_PI * (static_cast<double>(time) - kTurn) / 40.0)));
+}
 
 // Header of a capture whose deepest point is 11.75 of 40 points after the beginning of a period.
 Volume capture() {
@@ -86,12 +97,14 @@ std::string file_of(const Volume& volume) {
   };
   add_channel("Deflection Error", "V [Sens. DeflSens] (0.0003750 V/LSB) 24.576 V",
               [&](std::size_t curve, int branch, std::size_t point) {
+                const std::size_t time = time_of(branch, point);
+                if (volume.sensed != 0) return 2000 - swing_at(time);
                 if (!volume.swings) return deflection_at(curve, point);
-                const std::size_t time = branch == 0 ? kPoints - 1 - point : kPoints + point;
                 return static_cast<int>(1000 * (curve + 1) + 10 * time);
               });
   if (!volume.sensor_scale.empty()) {
-    add_channel("Height Sensor", volume.sensor_scale, [](std::size_t curve, int /*branch*/, std::size_t point) {
+    add_channel(volume.sensor_name, volume.sensor_scale, [&](std::size_t curve, int branch, std::size_t point) {
+      if (volume.sensed != 0) return volume.sensed * swing_at(time_of(branch, point));
       return static_cast<int>(1000 * (curve + 1) + 30 * point);
     });
   }
@@ -161,7 +174,7 @@ TEST(NanoscopeVolume, IsAForceMap) {
 
 // A period of PeakForce tapping begins with the approach, half a period before its deepest point.
 TEST(NanoscopeVolume, OfPeakForceTappingIsTurnedToItsDeepestPoint) {
-  constexpr double kTurn = 11.75, kAmplitude_m = 150e-9;
+  constexpr double kAmplitude_m = 150e-9;
   for (const std::size_t index : {0U, 5U}) {
     const RecordedCurve curve = read(capture(), index);
     ASSERT_EQ(curve.points.size(), 2 * kPoints);
@@ -200,9 +213,44 @@ TEST(NanoscopeVolume, OfPeakForceTappingIsRefusedIfItsSwingIsUnknown) {
     wrong.scan.replace(wrong.scan.find(key), std::string(key).size(), text);
     EXPECT_THAT(refusal(wrong), HasSubstr("PeakForce capture")) << text;
   }
-  Volume sensed = capture();
-  sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
-  EXPECT_THAT(refusal(sensed), HasSubstr("PeakForce tapping with a channel of the height"));
+}
+
+// The header need not describe the swing of a capture with a channel of its height, whose sensor counts either way.
+TEST(NanoscopeVolume, OfPeakForceTappingHasTheHeightsOfItsChannel) {
+  constexpr double kSensor_m = 1e-4 * 100e-9;  // height of an integer
+  for (const char* name : {"Height Sensor", "Height"}) {
+    for (const int sign : {1, -1}) {
+      Volume sensed;
+      sensed.scan = "\\PeakForce Capture: Allow\r\n";
+      sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
+      sensed.sensor_name = name;
+      sensed.sensed = sign;
+      const RecordedCurve curve = read(sensed, 5);
+      ASSERT_EQ(curve.points.size(), 2 * kPoints);
+      for (std::size_t i = 0; i < 2 * kPoints; ++i) {
+        const int swing = swing_at((32 + i) % (2 * kPoints));  // half a period before the deepest point
+        EXPECT_NEAR(curve.points[i].z.si, kSensor_m * swing, 1e-16) << name << sign << ", " << i;
+        EXPECT_NEAR(curve.points[i].force.si, kLsb_v * kNewtonPerV * (2000 - swing), 1e-20) << name << sign << i;
+        EXPECT_EQ(curve.points[i].branch, i < kPoints ? physics::Branch::Approach : physics::Branch::Retract);
+      }
+      EXPECT_THAT(curve.metadata.remarks, testing::Contains(HasSubstr("PeakForce tapping with recorded heights")));
+    }
+  }
+}
+
+// A fast force volume says that it is a capture, too, and begins where its approach does.
+TEST(NanoscopeVolume, OfPeakForceTappingThatBeginsWithItsApproachIsNotTurned) {
+  Volume ramps;
+  ramps.scan = "\\PeakForce Capture: Allow\r\n";
+  ramps.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
+  const RecordedCurve sensed = read(ramps, 5);
+  ramps.scan.clear();
+  const RecordedCurve usual = read(ramps, 5);
+  ASSERT_EQ(sensed.points.size(), usual.points.size());
+  for (std::size_t i = 0; i < usual.points.size(); ++i) {
+    EXPECT_EQ(sensed.points[i].z, usual.points[i].z) << i;
+    EXPECT_EQ(sensed.points[i].force, usual.points[i].force) << i;
+  }
 }
 
 // From version 9.2 on, where integers of two bytes take four.
@@ -282,7 +330,9 @@ TEST(NanoscopeVolume, IsRefusedInOneLineIfItsCurvesAreNotUnderstood) {
 TEST(NanoscopeVolume, SurvivesAnyChangeOfItsHeader) {
   Volume sensed;
   sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
-  for (const Volume& volume : {Volume(), sensed, capture()}) {
+  Volume sensed_capture = sensed;
+  sensed_capture.scan = "\\PeakForce Capture: Allow\r\n";
+  for (const Volume& volume : {Volume(), sensed, sensed_capture, capture()}) {
     const std::string file = file_of(volume);
     EXPECT_GT(test::read_after_damage(file, file.find('\x1a'), kCurves - 1), 1000);
   }

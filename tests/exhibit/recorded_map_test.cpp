@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Invariant: a moment of a session over a map is drawn with the very file that was felt, or refused
+// Invariant: a moment of a session over a map is drawn with the very file that was felt, or refused; of one pixel
+// also without it
 #include "exhibit/frame/recorded_map.h"
 
 #include <gmock/gmock.h>
@@ -94,12 +95,34 @@ TEST_F(RecordedMap, IsLookedForBesideItsSession) {
 
 TEST_F(RecordedMap, IsMissingFromOlderSessionsAndNeedlessForOthers) {
   session_.force_map->reading = "{}";
-  EXPECT_THAT(refusal(), HasSubstr("the reading of its force map is damaged"));
+  EXPECT_THAT(refusal(), HasSubstr("the reading of its force map is damaged: it has no fit"));
   session_.force_map.reset();
   EXPECT_THAT(refusal(), HasSubstr("it does not name the force map that was felt"));
   session_.law_map.reset();
   EXPECT_EQ(refusal(), "accepted");
-  EXPECT_THAT(refusal(files_.force_map), HasSubstr("the hand of this session felt no whole map"));
+  EXPECT_THAT(refusal(files_.force_map), HasSubstr("the hand of this session felt no map"));
+}
+
+// The session has the curve of its pixel: the map is only a picture beside it.
+TEST_F(RecordedMap, OfOnePixelIsShownIfItIsTheSame) {
+  session_.law_map.reset();
+  session_.force_map->reading = "{}";
+  session_.force_map->pixel = {1, 0};
+  const auto files = again();
+  ASSERT_TRUE(files) << files.error().message;
+  EXPECT_FALSE(files->whole_map);
+  const auto stage = load_exhibit(*files);
+  ASSERT_TRUE(stage) << stage.error().message;
+  ASSERT_TRUE(stage->pixel && !stage->pixel->felt_map);
+  EXPECT_EQ(stage->pixel->pixel->place, (curves::MapPlace{1, 0}));
+
+  const std::string moved = folder_.file("moved.jpk-force-map");
+  std::filesystem::rename(files_.force_map, moved);
+  ASSERT_TRUE(again());
+  EXPECT_EQ(again()->force_map, "") << "left out";
+  EXPECT_EQ(again(moved)->force_map, moved);
+  folder_.write("moved.jpk-force-map", core::read_file(moved).value() + " ");
+  EXPECT_THAT(refusal(moved), HasSubstr("is not the force map that was felt")) << "the user names it";
 }
 
 }  // namespace recorded_map_test

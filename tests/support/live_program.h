@@ -77,6 +77,8 @@ class LiveProgram {
 
   void signal(int number) const { ::kill(pid_, number); }
 
+  bool has_ended() { return poll_end(); }
+
   // Its exit code once it has ended; none if it has not after a minute.
   std::optional<int> ends() {
     within(std::chrono::minutes(1), [&] { return poll_end(); });

@@ -25,12 +25,13 @@ enum class CurveFormat {
   NanoscopeForce,  // Bruker's ramps and force volumes, .spm, .000, .pfc; read only
   Nanosurf,        // Nanosurf's spectroscopy, .nid; read only
   IgorBinaryWave,  // Asylum Research's .ibw; read only
+  AsylumMap,       // Asylum Research's .ardf; read only
 };
 
 // All formats, for help and error messages.
 inline constexpr const char* kCurveFiles =
     "TouchAFM .csv, afmformats .tab or .h5, AFM Workshop .csv, JPK .jpk-force, .jpk-force-map or .jpk-qi-data, "
-    "Nanoscope .spm or .000, Nanosurf .nid or .nhf, Igor .ibw";
+    "Nanoscope .spm or .000, Nanosurf .nid or .nhf, Igor .ibw, Asylum .ardf";
 
 // Returns whether a regular file begins like a curve.
 bool is_curve_file(const std::string& path);

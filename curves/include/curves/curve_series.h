@@ -12,8 +12,8 @@
 
 namespace afm::curves {
 
-// Curves of a file: one of most formats, several of an .h5, of JPK's and Nanosurf's maps and of a force volume. Known
-// files that cannot hold several are not opened. BadInputFile as load_curve().
+// Curves of a file: one of most formats, several of an .h5, of the maps of JPK, Nanosurf and Asylum and of a force
+// volume. Known files that cannot hold several are not opened. BadInputFile as load_curve().
 core::Result<std::size_t> curve_count(const std::string& path, const CurveReading& reading = {});
 
 // Contents of a file with one curve or more; only .h5 holds several. Errors as of curve_bytes(), and WrongUsage for a

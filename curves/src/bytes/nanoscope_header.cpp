@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "bytes/scaled_unit.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
+#include "curves/recorded_curve.h"
 
 namespace afm::curves {
 
@@ -118,6 +120,23 @@ std::optional<HardScale> hard_scale(const std::string_view* text) {
   scale.value = take_number(rest);
   scale.unit = trimmed(rest);
   return scale;
+}
+
+NanoscopeTime nanoscope_time(std::string_view text) {
+  constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                     "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+  std::vector<std::string_view> words;
+  split(text, ' ', words);
+  words.erase(std::remove(words.begin(), words.end(), std::string_view()), words.end());
+  if (words.size() != 6 || words[0].size() != 8) return {};
+  const auto* month = std::find(kMonths.begin(), kMonths.end(), words[3]);
+  const auto hour = number_of(words[0].substr(0, 2)), day = number_of(words[4]), year = number_of(words[5]);
+  if (month == kMonths.end() || !hour || !day || !year) return {};
+  if (!(*hour >= 1 && *hour <= 12 && *day >= 1 && *day <= 31 && *year >= 1900 && *year <= 9999)) return {};
+  const int hours = static_cast<int>(*hour) % 12 + (words[1] == "PM" ? 12 : 0);
+  return {
+      fmt::format("{:04}-{:02}-{:02}", static_cast<int>(*year), month - kMonths.begin() + 1, static_cast<int>(*day)),
+      fmt::format("{:02}{}", hours, words[0].substr(2))};
 }
 
 std::optional<SoftScale> soft_scale(const std::vector<NanoscopeBlock>& blocks, std::string_view name,

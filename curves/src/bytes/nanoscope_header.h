@@ -33,6 +33,12 @@ std::string_view nanoscope_channel(const NanoscopeBlock& channel);
 // Version, such as 0x09300201; 0 if no block has it.
 std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks);
 
+// "04:42:34 PM Tue Sep 11 2007" as YYYY-MM-DD and HH:MM:SS; empty for any other text.
+struct NanoscopeTime {
+  std::string day, clock;
+};
+NanoscopeTime nanoscope_time(std::string_view text);
+
 // The number at the front of a value. Throws CurveError if there is none.
 double nanoscope_number(const NanoscopeBlock& block, const std::string& key);
 

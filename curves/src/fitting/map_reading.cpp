@@ -23,6 +23,11 @@ struct ReadingNumber {
 constexpr std::array kReadingNumbers{
     ReadingNumber{"radius_m", "radius",
                   [](const FitOptions& options) { return options.radius_m > 0.0 ? options.radius_m : HUGE_VAL; }},
+    ReadingNumber{
+        "half_angle_rad", "half-angle",
+        [](const FitOptions& options) { return options.half_angle_rad > 0.0 ? options.half_angle_rad : HUGE_VAL; }},
+    ReadingNumber{"layer_m", "layer",
+                  [](const FitOptions& options) { return options.layer_m > 0.0 ? options.layer_m : HUGE_VAL; }},
     ReadingNumber{"poisson", "poisson", [](const FitOptions& options) { return options.poisson; }},
     ReadingNumber{"atomic_distance_m", "atomic-distance",
                   [](const FitOptions& options) { return options.atomic_distance_m.value_or(HUGE_VAL); }},
@@ -52,11 +57,20 @@ std::string take_reading_number(const nlohmann::json& json, const ReadingNumber&
 
 core::Result<MapReading> reading_of(const nlohmann::json& json) {
   MapReading reading;
-  const auto name = json.at("fit").get<std::string>();
-  const auto shape = std::find_if(fits::kShapes.begin(), fits::kShapes.end(),
-                                  [&](const fits::ShapeRow& row) { return row.name == name; });
-  if (shape == fits::kShapes.end()) return damaged_reading(fmt::format("there is no fit \"{}\"", name));
-  reading.fit.shape = shape->shape;
+  if (const auto fit = json.find("fit"); fit != json.end()) {
+    const auto name = fit->get<std::string>();
+    const auto* shape = std::find_if(fits::kShapes.begin(), fits::kShapes.end(),
+                                     [&](const fits::ShapeRow& row) { return row.name == name; });
+    if (shape == fits::kShapes.end()) return damaged_reading(fmt::format("there is no fit \"{}\"", name));
+    reading.fit.shape = shape->shape;
+  }
+  if (const auto base = json.find("base"); base != json.end()) {
+    const auto name = base->get<std::string>();
+    const auto* row = std::find_if(fits::kBases.begin(), fits::kBases.end(),
+                                   [&](const fits::BaseName& each) { return each.name == name; });
+    if (row == fits::kBases.end()) return damaged_reading(fmt::format("there is no base \"{}\"", name));
+    reading.fit.base = row->base;
+  }
   for (const ReadingNumber& number : kReadingNumbers) {
     if (const std::string why = take_reading_number(json, number, reading.fit); !why.empty())
       return damaged_reading(why);
@@ -82,6 +96,8 @@ core::Result<MapReading> reading_of(const nlohmann::json& json) {
 std::string text_of(const MapReading& reading) {
   nlohmann::json json = nlohmann::json::object();
   if (reading.fit.shape) json["fit"] = fits::row_of(*reading.fit.shape).name;
+  if (reading.fit.base != FitOptions{}.base)
+    json["base"] = fits::kBases.at(static_cast<std::size_t>(reading.fit.base)).name;
   for (const ReadingNumber& number : kReadingNumbers) {
     if (const double value = number.get(reading.fit); std::isfinite(value)) json[number.key] = value;
   }

@@ -21,7 +21,7 @@ namespace afm::curves {
 // CurveError.
 struct SeriesRow {
   std::size_t (*count)(const std::string& path);
-  // A message a curve, as afmformats .tab.
+  // A message a curve, as handed_bytes().
   std::unique_ptr<ConfinedStream> (*stream)(const std::string& path, const SeriesPart& part,
                                             const CurveReading& reading);
   std::string (*write)(std::span<const RecordedCurve> curves);  // null: read only
@@ -51,7 +51,7 @@ constexpr SeriesRow series_of() {
                   const Archive archive(file.bytes());
                   for (std::size_t i = part.first, read = 1; i < archive.size(); i += part.step, ++read) {
                     try {
-                      put({false, tab_bytes(archive.curve(i, reading))});
+                      put({false, handed_bytes(archive.curve(i, reading))});
                     } catch (const CurveError& fault) {
                       put({true, fault.what()});
                     }

@@ -21,6 +21,7 @@
 #include "curves/curve_error.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
+#include "formats/ardf_file.h"
 #include "formats/column_table.h"
 #include "formats/confined_series.h"
 #include "formats/format_table.h"
@@ -85,9 +86,9 @@ RecordedCurve read_one(std::string_view bytes, const CurveReading& reading) {
   return curve;
 }
 
-constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes}, kJpkSeries = series_of<JpkArchive>(),
-                                                                      kNanoscopeSeries = series_of<NanoscopeCurves>(),
-                                                                      kNanosurfSeries = series_of<NanosurfCurves>();
+constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes},
+    kJpkSeries = series_of<JpkArchive>(), kNanoscopeSeries = series_of<NanoscopeCurves>(),
+    kNanosurfSeries = series_of<NanosurfCurves>(), kArdfSeries = series_of<ArdfCurves>();
 
 enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
 
@@ -132,7 +133,10 @@ constexpr FormatTable kCurves{
         CurveRow{CurveFormat::Nanosurf, "Nanosurf .nid", "", "", has_nanosurf_spectroscopy, Reader::Foreign,
                  &kNanosurfSeries, read_one<NanosurfCurves>, nullptr},
         CurveRow{CurveFormat::IgorBinaryWave, "Igor .ibw", "", "", looks_like_igor, Reader::Foreign, nullptr, read_igor,
-                 nullptr}}};
+                 nullptr},
+        CurveRow{CurveFormat::AsylumMap, "Asylum .ardf", "", "",
+                 [](std::string_view b) { return b.size() > 12 && b.substr(8, 4) == "ARDF"; }, Reader::Foreign,
+                 &kArdfSeries, read_one<ArdfCurves>, nullptr}}};
 // Not known by its content: the user says what it is.
 constexpr CurveRow kColumnTable{CurveFormat{},     "",     "", "", nullptr, Reader::Foreign, nullptr,
                                 read_column_table, nullptr};
@@ -227,7 +231,7 @@ class PartReader {
     const SeriesPart rest = std::exchange(rest_, {rest_.first + rest_.step, rest_.step});
     const ChildMessage message = message_of(rest);
     if (message.fault) throw CurveError(message.text);
-    return finished(read_tab(message.text), reading_);
+    return finished(read_handed(message.text), reading_);
   }
 
  private:

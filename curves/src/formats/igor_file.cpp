@@ -47,7 +47,9 @@ std::optional<double> calibration_in(std::string_view note, std::string_view key
   return number && *number != 0.0 ? number : std::nullopt;
 }
 
-CurveMetadata metadata_of(std::string_view note) {
+}  // namespace
+
+CurveMetadata asylum_metadata(std::string_view note) {
   CurveMetadata metadata;
   if (const auto k = calibration_in(note, "SpringConstant")) metadata.spring_constant = physics::Stiffness(*k);
   metadata.sensitivity_m_per_v = calibration_in(note, "InvOLS");
@@ -63,6 +65,8 @@ CurveMetadata metadata_of(std::string_view note) {
   metadata.time = note_value(note, "Time");
   return metadata;
 }
+
+namespace {
 
 // The deflection's column and the newtons of one of its units: metres, or volts in a wave without metres. Takes from
 // `reading` what the note lacks.
@@ -183,7 +187,7 @@ RecordedCurve read_igor(std::string_view bytes, const CurveReading& reading) {
   const IgorWave wave = read_igor_wave(bytes);
   check_curve_trailer(wave.trailer);
   if (wave.rows > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
-  RecordedCurve curve{{}, {}, metadata_of(wave.note)};
+  RecordedCurve curve{{}, {}, asylum_metadata(wave.note)};
   const std::size_t height = channel(wave, {"ZSnsr", "ZSensor", "Raw", "Height"});
   const DeflectionChannel deflection = deflection_of(wave, reading, curve.metadata);
   std::vector<std::size_t> rows;  // rows of the points

@@ -15,4 +15,7 @@ namespace afm::curves {
 // that `reading` lacks too.
 RecordedCurve read_igor(std::string_view bytes, const CurveReading& reading);
 
+// Calibration, speeds, instrument and date in a note of Asylum's program. Throws CurveError for a number that is none.
+CurveMetadata asylum_metadata(std::string_view note);
+
 }  // namespace afm::curves

@@ -114,24 +114,6 @@ double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& 
   return *metadata.sensitivity_m_per_v * metadata.spring_constant->si;
 }
 
-// "04:42:34 PM Tue Sep 11 2007"
-void read_nanoscope_date(std::string_view text, CurveMetadata& metadata) {
-  constexpr std::array<std::string_view, 12> kMonths{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
-                                                     "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-  std::vector<std::string_view> words;
-  split(text, ' ', words);
-  words.erase(std::remove(words.begin(), words.end(), std::string_view()), words.end());
-  if (words.size() != 6 || words[0].size() != 8) return;
-  const auto month = std::find(kMonths.begin(), kMonths.end(), words[3]);
-  const auto hour = number_of(words[0].substr(0, 2)), day = number_of(words[4]), year = number_of(words[5]);
-  if (month == kMonths.end() || !hour || !day || !year) return;
-  if (!(*hour >= 1 && *hour <= 12 && *day >= 1 && *day <= 31 && *year >= 1900 && *year <= 9999)) return;
-  const int hours = static_cast<int>(*hour) % 12 + (words[1] == "PM" ? 12 : 0);
-  metadata.date =
-      fmt::format("{:04}-{:02}-{:02}", static_cast<int>(*year), month - kMonths.begin() + 1, static_cast<int>(*day));
-  metadata.time = fmt::format("{:02}{}", hours, words[0].substr(2));
-}
-
 // `held` points of each curve are those of a hold.
 CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks, std::size_t held) {
   CurveMetadata metadata;
@@ -141,7 +123,9 @@ CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks, std::size_t held
   for (const NanoscopeBlock& block : blocks) {
     const std::string name = lower_key(block.name);
     if (const auto* date = block.find("date"); date != nullptr && name == "force file list") {
-      read_nanoscope_date(*date, metadata);
+      const NanoscopeTime time = nanoscope_time(*date);
+      metadata.date = time.day;
+      metadata.time = time.clock;
     }
     if (const auto* microscope = block.find("microscope"); microscope != nullptr && name == "equipment list") {
       metadata.instrument = *microscope;
@@ -166,14 +150,20 @@ struct NanoscopeCurves::Signal {
   std::vector<double> extend, retract;
   std::size_t integer_size = 0;
 
+  std::vector<double> period() const {
+    std::vector<double> both = extend;
+    both.insert(both.end(), retract.begin(), retract.end());
+    return both;
+  }
+
   // Begins a period of both at one of its points.
-  void begin_at(std::size_t first) {
-    std::vector<double> period = extend;
-    period.insert(period.end(), retract.begin(), retract.end());
-    std::rotate(period.begin(), period.begin() + static_cast<std::ptrdiff_t>(first), period.end());
-    const auto turn = period.begin() + static_cast<std::ptrdiff_t>(extend.size());
-    extend.assign(period.begin(), turn);
-    retract.assign(turn, period.end());
+  void begin_at(std::size_t first, double factor = 1.0) {
+    std::vector<double> both = period();
+    std::rotate(both.begin(), both.begin() + static_cast<std::ptrdiff_t>(first), both.end());
+    for (double& value : both) value *= factor;
+    const auto turn = both.begin() + static_cast<std::ptrdiff_t>(extend.size());
+    extend.assign(both.begin(), turn);
+    retract.assign(turn, both.end());
   }
 };
 
@@ -229,11 +219,11 @@ NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks
   if (layout_of(*deflection_)) volume_.reset();
   if (!volume_) return;
   if (is_peakforce_capture(blocks_)) {
-    if (sensor_ != nullptr)
-      throw CurveError("its curves are those of PeakForce tapping with a channel of the height, which are not read");
     // the second of its lengths may be wrong
     lengths_.extend = lengths_.retract;
-    swing_ = nanoscope_swing(blocks_, 2 * lengths_.longer());
+    if (sensor_ == nullptr) sensor_ = channel_named(channels, {"height"});
+    is_sensed_period_ = sensor_ != nullptr;
+    if (!is_sensed_period_) swing_ = nanoscope_swing(blocks_, 2 * lengths_.longer());
   }
   if (volume_->columns > 0 && volume_->rows > 0) {
     count_ = volume_->columns * volume_->rows;
@@ -333,6 +323,10 @@ NanoscopeCurves::Signal NanoscopeCurves::heights(std::size_t index) const {
     throw CurveError(fmt::format("it does not say how to convert its {} to metres", nanoscope_channel(*sensor_)));
   Signal heights = signal(*sensor_, index);
   double factor = value_per_integer(*sensor_, heights.integer_size) * *per_volt;
+  if (is_sensed_period_) {
+    heights.begin_at(0, factor);
+    return heights;
+  }
   // the sensor may count towards the sample
   const auto recorded = [](double value) { return !std::isnan(value); };
   const auto first = std::find_if(heights.extend.begin(), heights.extend.end(), recorded);
@@ -364,7 +358,13 @@ RecordedCurve NanoscopeCurves::curve(std::size_t index, const CurveReading& read
   const std::size_t held = known_layout(*deflection_).points - 2 * lengths_.longer();
   RecordedCurve curve{{}, {}, nanoscope_metadata(blocks_, held)};
   const double per_volt = newton_per_volt(*deflection_, blocks_, reading, curve.metadata);
-  const Signal volts = signal(*deflection_, index), z = heights(index);
+  Signal volts = signal(*deflection_, index), z = heights(index);
+  if (is_sensed_period_) {
+    const SensedPeriod sensed = sensed_period(z.period(), volts.period());
+    volts.begin_at(sensed.first);
+    z.begin_at(sensed.first, sensed.sign);
+    curve.metadata.remarks.emplace_back(kSensedPeriod);
+  }
   const double factor = value_per_integer(*deflection_, volts.integer_size) * per_volt;
   std::size_t unrecorded = 0;
   const auto add_branch = [&](const std::vector<double>& z_m, const std::vector<double>& values,

@@ -22,7 +22,8 @@ inline constexpr std::string_view kNanoscopeForceMagic = "\\*Force file list";
 // not recorded have the lowest integer. Of two lengths in "\Samps/line" the first is the retract's. The heights are
 // those of the sensor, otherwise evenly spaced over the ramp, in a force volume above the height of the image at the
 // curve's pixel. A capture of PeakForce tapping has a period a curve (nanoscope_swing.h), which is turned so that it
-// begins half a period before the deepest point. Throws CurveError.
+// begins half a period before the deepest point; its heights are those of its channel "Height Sensor" or "Height",
+// otherwise of the swing. Throws CurveError.
 class NanoscopeCurves {
  public:
   // The bytes must outlive the object.
@@ -62,7 +63,8 @@ class NanoscopeCurves {
   Lengths lengths_;
   std::size_t hold_ = 0;  // points of a hold, in channels that have it
   std::optional<NanoscopeVolume> volume_;
-  std::optional<NanoscopeSwing> swing_;  // PeakForce tapping; empty: ramps
+  std::optional<NanoscopeSwing> swing_;  // PeakForce tapping without a channel of the height; empty: other curves
+  bool is_sensed_period_ = false;        // PeakForce tapping with such a channel
   std::size_t count_ = 1;
 };
 

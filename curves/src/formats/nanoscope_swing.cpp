@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "bytes/scaled_unit.h"
@@ -56,6 +59,33 @@ std::vector<double> NanoscopeSwing::heights_m() const {
 bool is_peakforce_capture(const std::vector<NanoscopeBlock>& blocks) {
   const std::string_view* text = swing_text(blocks, "peakforce capture");
   return text != nullptr && lower_key(trimmed(*text)) == "allow";
+}
+
+SensedPeriod sensed_period(const std::vector<double>& heights, const std::vector<double>& deflections) {
+  double sum = 0.0, known = 0.0;
+  std::optional<std::size_t> pushed;  // the point of the greatest deflection
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (std::isnan(heights[i])) continue;
+    sum += heights[i];
+    known += 1.0;
+    if (!std::isnan(deflections[i]) && !(pushed && deflections[i] <= deflections[*pushed])) pushed = i;
+  }
+  if (!pushed) return {};
+  const double mean = sum / known;
+  SensedPeriod period{.first = 0, .sign = heights[*pushed] > mean ? -1.0 : 1.0};
+  const double angle_step = 2.0 * std::numbers::pi / static_cast<double>(heights.size());
+  std::complex<double> harmonic;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (std::isnan(heights[i])) continue;
+    harmonic -= period.sign * (heights[i] - mean) * std::polar(1.0, angle_step * static_cast<double>(i));
+  }
+  double turn = std::arg(harmonic) / angle_step;
+  if (!std::isfinite(turn)) return period;
+  if (turn < 0.0) turn += static_cast<double>(heights.size());
+  const NanoscopeSwing swing{.amplitude_m = 0.0, .turn = turn, .points = heights.size()};
+  const std::size_t first = swing.first();
+  if (std::min(first, heights.size() - first) > heights.size() / 50) period.first = first;
+  return period;
 }
 
 NanoscopeSwing nanoscope_swing(const std::vector<NanoscopeBlock>& blocks, std::size_t points) {

@@ -27,6 +27,20 @@ struct NanoscopeSwing {
 // True if the curves of a file are those of PeakForce tapping.
 bool is_peakforce_capture(const std::vector<NanoscopeBlock>& blocks);
 
+// A period of PeakForce tapping whose heights were recorded: the point with which its approach begins, half a period
+// before the deepest one, and the sign of a sensor that counts towards the sample.
+struct SensedPeriod {
+  std::size_t first = 0;
+  double sign = 1.0;
+};
+inline constexpr const char* kSensedPeriod =
+    "it is a period of PeakForce tapping with recorded heights; its force includes drag and inertia";
+
+// The deepest point is that of the heights' first harmonic, on the side where the deflection is greatest. A period that
+// begins within a fiftieth of itself from there is not turned. Points that are not numbers are left out; both have as
+// many.
+SensedPeriod sensed_period(const std::vector<double>& heights, const std::vector<double>& deflections);
+
 // `points` are captured in a period. Throws CurveError if the header lacks a number.
 NanoscopeSwing nanoscope_swing(const std::vector<NanoscopeBlock>& blocks, std::size_t points);
 

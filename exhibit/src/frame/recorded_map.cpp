@@ -54,30 +54,12 @@ std::string place_of_map(const servo::RecordedForceMap& map, const std::string& 
   return fs::exists(beside, none) ? beside.string() : map.file;
 }
 
-}  // namespace
-
-core::Result<std::optional<servo::RecordedForceMap>> recorded_map_of(const Stage& stage, const ExhibitFiles& files) {
-  if (!stage.pixel || !stage.pixel->felt_map || !files.map_reading) return std::nullopt;
-  auto digest = digest_of_file(files.force_map);
-  if (!digest) return tl::unexpected(digest.error());
-  std::error_code none;
-  const auto place = std::filesystem::absolute(files.force_map, none).lexically_normal();
-  const curves::MapPlace& pixel = stage.pixel->pixel->place;
-  return servo::RecordedForceMap{.file = place.string(),
-                                 .digest = std::move(*digest),
-                                 .reading = curves::text_of(*files.map_reading),
-                                 .pixel = {pixel.column, pixel.row}};
-}
-
-core::Result<ExhibitFiles> with_recorded_map(const servo::RecordedSession& session, const std::string& path,
-                                             ExhibitFiles files) {
+// The files that show the map of a session again. Fails where it cannot be read as it was then.
+core::Result<ExhibitFiles> found_map(const servo::RecordedSession& session, const std::string& path,
+                                     ExhibitFiles files) {
   const auto bad = [&](const std::string& why) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("session file {}: {}", path, why));
   };
-  if (!session.law_map) {
-    if (files.force_map.empty()) return files;
-    return core::wrong_usage("--force-map: the hand of this session felt no whole map; leave it out");
-  }
   const auto& map = session.force_map;
   if (!map) {
     return bad(
@@ -86,6 +68,7 @@ core::Result<ExhibitFiles> with_recorded_map(const servo::RecordedSession& sessi
   }
   auto reading = curves::map_reading_of(map->reading);
   if (!reading) return bad(reading.error().message);
+  if (session.law_map && !reading->fit.shape) return bad("the reading of its force map is damaged: it has no fit");
   files.force_map = place_of_map(*map, path, files.force_map);
   std::error_code none;
   if (!std::filesystem::exists(files.force_map, none)) {
@@ -102,9 +85,39 @@ core::Result<ExhibitFiles> with_recorded_map(const servo::RecordedSession& sessi
   }
   files.map_reading = std::make_shared<const curves::MapReading>(std::move(*reading));
   files.pixel = map->pixel;
-  files.whole_map = true;
+  files.whole_map = session.law_map != nullptr;
   files.viscous_map = session.parameters.viscous_map != 0;
   files.map_vibration = session.parameters.map_vibration;
+  return files;
+}
+
+}  // namespace
+
+core::Result<std::optional<servo::RecordedForceMap>> recorded_map_of(const Stage& stage, const ExhibitFiles& files) {
+  if (!stage.pixel) return std::nullopt;
+  auto digest = digest_of_file(files.force_map);
+  if (!digest) return tl::unexpected(digest.error());
+  std::error_code none;
+  const auto place = std::filesystem::absolute(files.force_map, none).lexically_normal();
+  const curves::MapPlace& pixel = stage.pixel->pixel->place;
+  const curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
+  return servo::RecordedForceMap{.file = place.string(),
+                                 .digest = std::move(*digest),
+                                 .reading = curves::text_of(reading),
+                                 .pixel = {pixel.column, pixel.row}};
+}
+
+core::Result<ExhibitFiles> with_recorded_map(const servo::RecordedSession& session, const std::string& path,
+                                             ExhibitFiles files) {
+  if (!session.law_map && !session.force_map) {
+    if (files.force_map.empty()) return files;
+    return core::wrong_usage("--force-map: the hand of this session felt no map, or it does not name it; leave it out");
+  }
+  // without a picture of its map the curve of a pixel is drawn all the same
+  const bool needed = session.law_map || !files.force_map.empty();
+  auto found = found_map(session, path, files);
+  if (found || needed) return found;
+  core::log_line(found.error().message + "; the picture of the map is left out");
   return files;
 }
 

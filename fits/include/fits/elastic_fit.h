@@ -46,6 +46,7 @@ struct FitSetup {
   Against against = Against::Z;
   bool tilt = false;           // also fits a slope of the baseline
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
+  bool interval = true;        // false: no intervals, to measure what they cost
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts
   std::vector<Uncertainty> uncertainties{};  // errors of the inputs
   std::size_t bootstraps = 0;                // fits to resampled residuals; 0: none

@@ -37,13 +37,22 @@ class ForceShape {
     }
   }
 
-  // 0 outside the contact.
-  double at(double depth) const {
-    if (depth <= 0.0) return 0.0;
+  // A depth between two nodes, the same for every shape.
+  struct Place {
+    std::size_t node = 0;
+    double behind = 0.0;  // distance from the node
+  };
+  static Place place_of(double depth) {
     const double place = std::min(depth, 1.0) * kSteps;
     const auto node = std::min(static_cast<std::size_t>(place), kSteps - 1);
-    return force_[node] + (place - static_cast<double>(node)) * (force_[node + 1] - force_[node]);
+    return {node, place - static_cast<double>(node)};
   }
+  double at(const Place& place) const {
+    return force_[place.node] + place.behind * (force_[place.node + 1] - force_[place.node]);
+  }
+
+  // 0 outside the contact.
+  double at(double depth) const { return depth <= 0.0 ? 0.0 : at(place_of(depth)); }
 
  private:
   static constexpr std::size_t kSteps = 128;
@@ -60,16 +69,12 @@ class ForceShapes {
     return indenter == Indenter::Sphere ? sphere : cone;
   }
 
-  // The shape for the nearest share, to which `share` is set.
-  const ForceShape& nearest(double& share) const {
-    const auto node = static_cast<std::size_t>(std::lround(share * kShares));
-    share = static_cast<double>(node) / kShares;
-    return shapes_[node];
-  }
-
- private:
   static constexpr int kShares = 512;
 
+  // The shape for a share in units of 1/kShares.
+  const ForceShape& at(std::size_t share) const { return shapes_[share]; }
+
+ private:
   explicit ForceShapes(Indenter indenter) {
     shapes_.reserve(kShares + 1);
     for (int node = 0; node <= kShares; ++node) shapes_.emplace_back(indenter, static_cast<double>(node) / kShares);
@@ -101,12 +106,23 @@ class Misfit {
 
   double squares() const { return squares_; }
 
-  double taken_by(const ForceShape& shape, double contact) const {
+  // The points that touch, from the deepest one, if the contact is there.
+  std::vector<ForceShape::Place> places_below(double contact) const {
     const double depth = contact - profile_.z.back();
-    double squares = 0.0, with_force = 0.0, with_level = 0.0, with_tilt = 0.0;
+    std::vector<ForceShape::Place> places;
+    places.reserve(profile_.z.size());
     for (std::size_t end = profile_.z.size(); end > 0 && profile_.z[end - 1] < contact; --end) {
-      const std::size_t i = end - 1;
-      const double force = shape.at((contact - profile_.z[i]) / depth);
+      places.push_back(ForceShape::place_of((contact - profile_.z[end - 1]) / depth));
+    }
+    return places;
+  }
+
+  double taken_by(const ForceShape& shape, const std::vector<ForceShape::Place>& places) const {
+    double squares = 0.0, with_force = 0.0, with_level = 0.0, with_tilt = 0.0;
+    std::size_t i = profile_.z.size();
+    for (const ForceShape::Place& place : places) {
+      --i;
+      const double force = shape.at(place);
       squares += force * force;
       with_force += force * rest_[i];
       with_level += force * lines_[i][0];
@@ -123,11 +139,21 @@ class Misfit {
     constexpr int kSections = 13;  // to less than one of the shares
     PlaceFit best{-1.0, contact, 0.0, indenter};
     const ForceShapes& shapes = ForceShapes::of(indenter);
+    const std::vector<ForceShape::Place> places = places_below(contact);
+    std::array<double, kSections + 4> known{};  // values of the shares that were tried
+    std::array<std::size_t, kSections + 4> tried{};
+    std::size_t count = 0;
     const auto taken = [&](double share) {
-      const double value = taken_by(shapes.nearest(share), contact);
+      const auto node = static_cast<std::size_t>(std::lround(share * ForceShapes::kShares));
+      for (std::size_t i = 0; i < count; ++i) {
+        if (tried[i] == node) return known[i];
+      }
+      const double value = taken_by(shapes.at(node), places);
+      tried[count] = node;
+      known[count++] = value;
       if (value > best.taken) {
         best.taken = value;
-        best.lever_share = share;
+        best.lever_share = static_cast<double>(node) / ForceShapes::kShares;
       }
       return value;
     };

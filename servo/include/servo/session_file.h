@@ -44,7 +44,7 @@ struct RecordedSession {
   std::optional<scene::SharedHeightField> surface;     // none: a topography, or a plane
   scene::Topography topography;                        // without columns: none
   std::shared_ptr<const scene::SharedLawMap> law_map;  // map for parameters.law_map; null: none
-  std::optional<RecordedForceMap> force_map;           // file of that map; empty: none, or an older session
+  std::optional<RecordedForceMap> force_map;           // file of the map of law_map or curve; empty: none, or older
   std::optional<RecordedParticles> particles;
   bool has_plans = false;  // true: its samples have the plans of pushes; false: none, or an older file
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms

@@ -120,6 +120,10 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo, c
   if (session_.parameters.law_map != 0) {
     session_.law_map = std::make_shared<scene::SharedLawMap>(model.law_map);
     session_.force_map = force_map_;
+  } else if (session_.curve && session_.curve->column >= 0 && session_.curve->row >= 0 && force_map_) {
+    session_.force_map = force_map_;
+    session_.force_map->pixel = {static_cast<std::size_t>(session_.curve->column),
+                                 static_cast<std::size_t>(session_.curve->row)};
   }
   if (scene::are_there(model.particles)) {
     const auto pages = servo.particle_pages();

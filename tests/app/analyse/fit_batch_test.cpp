@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -140,6 +141,24 @@ TEST(FitBatch, HasTheSameBytesWithOneThreadAndWithEight) {
             core::read_file(folder.file("eight/report.html")).value());
 }
 
+TEST(FitBatch, TakesAsManyThreadsAsItIsTold) {
+  const support::ScratchFolder folder;
+  std::string files;
+  for (const std::string& file : files_in(folder)) files += " " + file;
+  const auto fit = [&](const std::string& more) {
+    return support::run_program(support::touchafm() + " analyse" + files + " --fit paraboloid --radius 5um " + more);
+  };
+  for (const char* threads : {"1", "8"}) {
+    const auto done = fit("--threads " + std::string(threads) + " --out " + folder.file(threads));
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+  }
+  EXPECT_EQ(core::read_file(folder.file("1/fits.tsv")).value(), core::read_file(folder.file("8/fits.tsv")).value());
+  EXPECT_EQ(fit("--threads 0 --out " + folder.file("none")).exit_code, 2);
+  const auto one = support::run_program(support::touchafm() + " analyse " + folder.file("a.tab") + " --threads 2");
+  EXPECT_EQ(one.exit_code, 2);
+  EXPECT_THAT(one.err, HasSubstr("--threads is for a table of fits"));
+}
+
 TEST(FitBatch, ReplacesNoTable) {
   const support::ScratchFolder folder;
   const auto files = files_in(folder);
@@ -251,6 +270,26 @@ TEST(FitBatch, OfAMapHasARowACurveAndMapsThatShowThem) {
   for (const char* picture : {"modulus", "contact", "depth", "trust"}) {
     EXPECT_TRUE(core::read_file(folder.file(std::string("out/gel-") + picture + ".png"))) << picture;
   }
+}
+
+TEST(MapBenchmark, ReadsAndFitsEveryCurve) {
+  const support::ScratchFolder folder;
+  const std::string bench = support::touchafm() + " bench maps " + map_in(folder) + " --json";
+  const auto read = support::run_program(bench);
+  ASSERT_EQ(read.exit_code, 0) << read.err;
+  const auto times = nlohmann::json::parse(read.out);
+  EXPECT_EQ(times.at("curves"), 6);
+  EXPECT_EQ(times.at("unread"), 0);
+  EXPECT_GT(times.at("read_s"), 0.0);
+  EXPECT_TRUE(times.at("fit_s").is_null());
+  const auto fit = support::run_program(bench + " --fit paraboloid --radius 5um");
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const auto fitted = nlohmann::json::parse(fit.out);
+  EXPECT_EQ(fitted.at("fitted"), 6);
+  EXPECT_GT(fitted.at("fit_s"), 0.0);
+  EXPECT_GT(fitted.at("fit_on_one_thread_s"), 0.0);
+  EXPECT_GT(fitted.at("memory_bytes"), 1e6);
+  EXPECT_EQ(support::run_program(support::touchafm() + " bench maps " + folder.file("none")).exit_code, 3);
 }
 
 TEST(FitBatch, OfAMapHasTheSameBytesWithOneThreadAndWithEight) {

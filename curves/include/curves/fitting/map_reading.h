@@ -9,7 +9,7 @@
 
 namespace afm::curves {
 
-// The calibration and the fit of a map that is felt whole (curves/fitting/felt_map.h) as one line of JSON, in SI, for a
+// The calibration and the fit, if there is one, of a map that is felt as one line of JSON, in SI, for a
 // session. Sizes that no such fit has are left out.
 std::string text_of(const MapReading& reading);
 
