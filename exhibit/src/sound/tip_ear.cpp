@@ -40,6 +40,7 @@ constexpr auto kRows = std::to_array<EventRow>({
     {physics::EventKind::HandTooFast, HeardEvent::HandTooFast, ForceOf::Nothing},
     {physics::EventKind::InkFlows, HeardEvent::InkFlows, ForceOf::Nothing},
     {physics::EventKind::LiquidTorn, HeardEvent::LiquidTorn, ForceOf::Before},
+    {physics::EventKind::ParticleSwept, HeardEvent::ParticleSwept, ForceOf::Before},
 });
 static_assert(core::has_row_for_each(kRows, &EventRow::kind));
 

@@ -39,6 +39,7 @@ enum class HeardEvent {
   HandTooFast,    // the hand moves faster than the tip scratches
   InkFlows,       // a tip with ink touches the sample
   LiquidTorn,     // it comes off
+  ParticleSwept,  // a scan that presses too hard begins to push a particle
 };
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.

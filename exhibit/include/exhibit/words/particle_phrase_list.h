@@ -64,7 +64,12 @@
   PHRASE(LookName, "newest-look", "", kLine)                               \
   PHRASE(LookOff, "look-off", "number lines", kLine)                       \
   PHRASE(LookMissed, "look-missed", "", kLine)                             \
+  PHRASE(LookSwept, "look-swept", "", kLine)                               \
+  PHRASE(LookSweptBy, "look-swept-by", "number gentle", kLine)             \
+  PHRASE(LookLoad, "look-load", "", kLine)                                 \
+  PHRASE(LookSweeps, "look-sweeps", "gentle", kLine)                       \
   PHRASE(KeyLook, "key-look", "", kLine)                                   \
+  PHRASE(KeyLookLoad, "key-look-load", "", kLine)                          \
   PHRASE(KeyTool, "key-tool", "", kLine)                                   \
   PHRASE(ToolName, "tool", "", kLine)                                      \
   PHRASE(ToolPush, "tool-push", "", kLine)                                 \

@@ -32,6 +32,7 @@
   PHRASE(HeardHandTooFast, "heard-hand-too-fast", kEventPlaces, kLine)               \
   PHRASE(HeardInkFlows, "heard-ink-flows", kEventPlaces, kLine)                      \
   PHRASE(HeardLiquidTorn, "heard-liquid-torn", kEventPlaces, kLine)                  \
+  PHRASE(HeardParticleSwept, "heard-particle-swept", kEventPlaces, kLine)            \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -61,6 +62,7 @@
   PHRASE(SayHandTooFast, "say-hand-too-fast", kEventPlaces, kLine)                   \
   PHRASE(SayInkFlows, "say-ink-flows", kEventPlaces, kLine)                          \
   PHRASE(SayLiquidTorn, "say-liquid-torn", kEventPlaces, kLine)                      \
+  PHRASE(SayParticleSwept, "say-particle-swept", kEventPlaces, kLine)                \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \
