@@ -33,6 +33,8 @@
   PHRASE(HeardInkFlows, "heard-ink-flows", kEventPlaces, kLine)                      \
   PHRASE(HeardLiquidTorn, "heard-liquid-torn", kEventPlaces, kLine)                  \
   PHRASE(HeardParticleSwept, "heard-particle-swept", kEventPlaces, kLine)            \
+  PHRASE(HeardAstrayLeft, "heard-astray-left", kEventPlaces, kLine)                  \
+  PHRASE(HeardAstrayRight, "heard-astray-right", kEventPlaces, kLine)                \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -63,6 +65,8 @@
   PHRASE(SayInkFlows, "say-ink-flows", kEventPlaces, kLine)                          \
   PHRASE(SayLiquidTorn, "say-liquid-torn", kEventPlaces, kLine)                      \
   PHRASE(SayParticleSwept, "say-particle-swept", kEventPlaces, kLine)                \
+  PHRASE(SayAstrayLeft, "say-astray-left", kEventPlaces, kLine)                      \
+  PHRASE(SayAstrayRight, "say-astray-right", kEventPlaces, kLine)                    \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \
