@@ -174,7 +174,12 @@ void ParticlesControl::next_tool() {
     core::log_line(fmt::format("tool {}: not here; {}", word, refused->text));
     return parts_.sound.narrator().note(parts_.stage.phrases()[phrase_of(refused->why)]);
   }
-  core::log_line(fmt::format("tool {}: as soon as the tip is off the sample, without force", word));
+  if (exhibit::touched(now_, now_.set->particles.size())) {
+    core::log_line(
+        fmt::format("tool {}: not while the tip touches particle {}; go back from it", word, now_.push.particle + 1));
+    parts_.sound.narrator().note(parts_.stage.phrases()[exhibit::Phrase::ToolWaits]);
+  }
+  core::log_line(fmt::format("tool {}: as soon as the tip is off the sample and the particles, without force", word));
   parts_.choice.choose_tool(next);
 }
 

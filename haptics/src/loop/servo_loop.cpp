@@ -294,8 +294,8 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 }
 
 // Follows the paper's procedure: choose, lift, press Turn-On. A selection, or an edit of the material under the tip,
-// waits until the tip is off the sample; then the force is removed, and only without force do law, scale and tool
-// change. Edits of other materials are not felt. A release removes the force at once.
+// waits until the tip is off the sample and its particles; then the force is removed, and only without force do law,
+// scale and tool change. Edits of other materials are not felt. A release removes the force at once.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
@@ -308,7 +308,8 @@ void ServoLoop::change_model() noexcept {
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (const bool release = newer && chosen_.release != 0; other || edited || release) {
-    if (!release && model_ != nullptr && model_->phase() == physics::Phase::Attached) return;
+    const bool pushes = touch_.push.touches && touch_.push.push_n != glm::dvec3(0.0);
+    if (!release && model_ != nullptr && (pushes || model_->phase() == physics::Phase::Attached)) return;
     governor_.disarm();
     changing_ = !governor_.released();
     if (changing_) return;

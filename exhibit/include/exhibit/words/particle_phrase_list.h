@@ -79,7 +79,8 @@
   PHRASE(ToolOfMarks, "tool-of-marks", "", kLine)                          \
   PHRASE(ToolNeedsAdhesion, "tool-needs-adhesion", "", kLine)              \
   PHRASE(ToolOfPicture, "tool-of-picture", "", kLine)                      \
-  PHRASE(ToolTooMuch, "tool-too-much", "", kLine)
+  PHRASE(ToolTooMuch, "tool-too-much", "", kLine)                          \
+  PHRASE(ToolWaits, "tool-waits", "", kLine)
 
 // A soft sample that the tip scratches; states as those of physics::PushState up to Slides.
 #define AFM_FOR_EACH_SOFT_PHRASE(PHRASE)                 \
