@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "exhibit/words/guidance.h"
 #include "haptics/device.h"
 #include "haptics/felt_particles.h"
+#include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
 #include "scene/shared/push_tools.h"
 #include "servo/live_picture.h"
@@ -45,6 +48,13 @@ const StrokeWords& words_of(const scene::ParticleSet& set) {
   if (set.ink) return kStrokes;
   return set.soft ? kScratches : kPushes;
 }
+
+// Loads of a look in units of the gentle one, the first at the start.
+constexpr std::array kLookLoads{0.5, 2.0, 5.0};
+
+std::uint32_t piconewtons(double n) { return static_cast<std::uint32_t>(std::max(1L, std::lround(1e12 * n))); }
+
+std::string text_of(physics::Force force) { return physics::format_quantity(force, physics::kForceUnits, 3); }
 
 using scene::PushTool;
 
@@ -76,7 +86,7 @@ exhibit::Phrase phrase_of(scene::ToolRefusal::Why why) {
 
 ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set)
     : parts_(parts),
-      now_{.set = &set},
+      now_{.set = &set, .look_load_n = kLookLoads.front() * exhibit::gentle_look(set).si},
       planner_(std::make_unique<exhibit::PushPlanner>(set)),
       shown_(std::make_unique<exhibit::WallState>()) {
   parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
@@ -125,6 +135,34 @@ void ParticlesControl::look_again() {
   order_ = Order::Look;
 }
 
+void ParticlesControl::next_look_load() {
+  if (parts_.servo.picture() == nullptr)
+    return core::log_line("load of a look: the particles themselves are shown; --level 1 or 2 hides them");
+  look_load_ = (look_load_ + 1) % kLookLoads.size();
+  const physics::Force gentle = exhibit::gentle_look(*now_.set), load = kLookLoads[look_load_] * gentle;
+  now_.look_load_n = load.si;
+  core::log_line(fmt::format("load of a look: {}, {} {}", text_of(load),
+                             load > gentle ? "which pushes particles away; gentle up to" : "gentle; the most is",
+                             text_of(gentle)));
+}
+
+// Until it ends, once a frame.
+void ParticlesControl::sweep(const ViewFrame& frame) {
+  const servo::LivePicture* picture = parts_.servo.picture();
+  const auto square = picture != nullptr ? picture->square() : std::nullopt;
+  const bool hard = now_.look_load_n > exhibit::gentle_look(*now_.set).si;
+  if (!square || !(hard || sweeps_)) {
+    if (std::exchange(sweeps_, false)) parts_.servo.link().lead({});
+    return;
+  }
+  sweeps_ = true;
+  parts_.servo.link().lead({.time_ns = frame.now_ns,
+                            .apex_xy_m = {square->middle_m.x, square->middle_m.y},
+                            .height_m = square->half_m,
+                            .hand = scene::ScanHand::Looks,
+                            .load_pn = piconewtons(now_.look_load_n)});
+}
+
 void ParticlesControl::next_tool() {
   if (!parts_.servo.running()) return;
   const scene::SharedParticles& particles = parts_.servo.link().model().particles;
@@ -136,7 +174,12 @@ void ParticlesControl::next_tool() {
     core::log_line(fmt::format("tool {}: not here; {}", word, refused->text));
     return parts_.sound.narrator().note(parts_.stage.phrases()[phrase_of(refused->why)]);
   }
-  core::log_line(fmt::format("tool {}: as soon as the tip is off the sample, without force", word));
+  if (exhibit::touched(now_, now_.set->particles.size())) {
+    core::log_line(
+        fmt::format("tool {}: not while the tip touches particle {}; go back from it", word, now_.push.particle + 1));
+    parts_.sound.narrator().note(parts_.stage.phrases()[exhibit::Phrase::ToolWaits]);
+  }
+  core::log_line(fmt::format("tool {}: as soon as the tip is off the sample and the particles, without force", word));
   parts_.choice.choose_tool(next);
 }
 
@@ -170,7 +213,11 @@ void ParticlesControl::send_plan() {
 }
 
 void ParticlesControl::restart(Restart what) {
-  if (what == Restart::Visitor) parts_.choice.choose_tool(PushTool::OfSet);
+  if (what == Restart::Visitor) {
+    parts_.choice.choose_tool(PushTool::OfSet);
+    look_load_ = 0;
+    now_.look_load_n = kLookLoads.front() * exhibit::gentle_look(*now_.set).si;
+  }
   order_ = Order::None;
   planner_->clear();
   send_plan();
@@ -202,6 +249,7 @@ void ParticlesControl::update(const ViewFrame& frame) {
   if (!parts_.servo.running()) return;
   follow_tool();
   if (task_) follow_task();
+  sweep(frame);
   if (order_ != Order::None) carry_out(frame.now_ns);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -40,6 +41,9 @@ class ParticlesControl final : public ViewControl {
   // Measures the particles near the tip again, at level 1 and 2, as soon as the tip is lifted.
   void look_again();
 
+  // Chooses the next load of a look, gentle or not.
+  void next_look_load();
+
   // Chooses the other tool, push or grip, or says why there is none.
   void next_tool();
 
@@ -67,6 +71,9 @@ class ParticlesControl final : public ViewControl {
   // Announces the tool that the servo uses, once it is another one.
   void follow_tool();
 
+  // While a look goes on with a load that is not gentle, the servo sweeps the particles.
+  void sweep(const ViewFrame& frame);
+
   bool point(const input::Ray& ray);
   void send_plan();
 
@@ -76,6 +83,8 @@ class ParticlesControl final : public ViewControl {
   std::unique_ptr<exhibit::WallState> shown_;  // state of the wall in the newest frame
   Order order_ = Order::None;
   scene::PushTool tool_ = scene::PushTool::OfSet;  // tool in use, as far as announced
+  std::size_t look_load_ = 0;                      // index into the loads
+  bool sweeps_ = false;                            // true: the servo has been told of a look
   std::optional<exhibit::ParticleTask> task_;      // only for a set with a pattern
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <utility>
 
 #include "app/view/servo_supervisor.h"
@@ -30,7 +31,7 @@ constexpr double kSimulatedMPerS = 0.1;     // speed of a simulated hand that pa
 constexpr double kSimulatedLineM = 0.0015;  // distance between its lines
 constexpr double kPressedM = -0.004;        // height of its aim relative to the touching tip
 
-// Words for the log, in the order of scene::ScanHand.
+// Roles of a hand for the log, in the order of scene::ScanHand.
 constexpr const char* kHandTexts[] = {"scan: the tip scans alone", "scan: the tip leads the hand",
                                       "scan: the hand takes the image"};
 
@@ -130,9 +131,9 @@ std::optional<exhibit::HandPart> ScanControl::hand_part(const exhibit::ScanSubje
 // Changes the hand's mode; without a scan, begins one in the first mode.
 void ScanControl::next_hand() {
   if (!parts_.servo.material()) return core::log_line("scan: choose a sample first");
-  constexpr auto kParts = core::kEnumerators<scene::ScanHand>;
-  const std::size_t part = scan_ ? (core::index_of(hand_) + 1) % kParts.size() : 1;
-  hand_ = kParts[part];
+  constexpr std::size_t kRoles = std::size(kHandTexts);  // looks have no hand
+  const std::size_t part = scan_ ? (core::index_of(hand_) + 1) % kRoles : 1;
+  hand_ = core::kEnumerators<scene::ScanHand>[part];
   core::log_line(kHandTexts[part]);
   begin();
 }

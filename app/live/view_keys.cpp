@@ -100,6 +100,9 @@ constexpr std::array kRows{
         .with_particles(),
     LiveKey{Key::F5, "F5", Phrase::KeyLook, [](KeyOwners& owners, std::size_t) { owners.particles->look_again(); }}
         .with_particles(),
+    LiveKey{Key::End, "End", Phrase::KeyLookLoad,
+            [](KeyOwners& owners, std::size_t) { owners.particles->next_look_load(); }}
+        .with_particles(),
     LiveKey{Key::Digit0, "0", Phrase::KeyTool, [](KeyOwners& owners, std::size_t) { owners.particles->next_tool(); }}
         .with_particles(),
     LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,

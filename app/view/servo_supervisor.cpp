@@ -39,6 +39,8 @@ std::string log_text(const scene::TipEvent& event, const scene::SharedParticles&
     return fmt::format("the liquid tears at Z = {:.1f} nm, pull {:.4f} nN", event.z_m * 1e9,
                        event.force_before_n * 1e9);
   if (event.kind == physics::EventKind::LookedAgain) return "looking again, as long as the tip stays lifted";
+  if (event.kind == physics::EventKind::ParticleSwept)
+    return fmt::format("looking too hard: the scan pushes a particle away at {:.4f} nN", event.force_before_n * 1e9);
   if (event.kind == physics::EventKind::SurfaceMarked)
     return fmt::format("the tip marks the sample, load {:.4f} nN", event.force_after_n * 1e9);
   if (event.kind == physics::EventKind::JumpToRepulsion || event.kind == physics::EventKind::JumpToAttraction) {

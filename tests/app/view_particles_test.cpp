@@ -212,6 +212,12 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   xdotool("mousemove 320 285 click 1");
   ASSERT_TRUE(view.says("looking again, as long as the tip stays lifted")) << view.said();
   ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
+  // a load that is not gentle, and back to a gentle one
+  ASSERT_TRUE(press("End", "load of a look: 136 pN, which pushes particles away; gentle up to 67.9 pN")) << view.said();
+  ASSERT_TRUE(press("F5", "looking too hard: the scan pushes a particle away")) << view.said();
+  ASSERT_TRUE(view.says("looked again: the scan pushed particle 1 away")) << view.said();
+  ASSERT_TRUE(press("End", "load of a look: 339 pN")) << view.said();
+  ASSERT_TRUE(press("End", "load of a look: 33.9 pN, gentle; the most is 67.9 pN")) << view.said();
   ASSERT_TRUE(press("BackSpace", "take back: no push at level 2")) << view.said();
   ASSERT_TRUE(press("0", "tool grip: not here; at level 2 the picture is computed for the tool of the set"))
       << view.said();
@@ -232,7 +238,7 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
                                             " --at 1 --out " + folder_.file("then.png"));
     EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
   }
-  EXPECT_EQ(looks, 2U);
+  EXPECT_EQ(looks, 3U);
 }
 
 TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {

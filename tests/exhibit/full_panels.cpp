@@ -138,8 +138,14 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
             panels.push_back(
                 particles_panel({.set = &set, .pages = lie, .push = push, .score = score, .plan = plan}, phrases));
             if (state != physics::PushState::Several) continue;
-            panels.push_back(particles_panel(
-                {.set = &set, .pages = lie, .push = push, .score = score, .plan = plan, .picture = &picture}, phrases));
+            panels.push_back(particles_panel({.set = &set,
+                                              .pages = lie,
+                                              .push = push,
+                                              .score = score,
+                                              .plan = plan,
+                                              .picture = &picture,
+                                              .look_load_n = 123.4e-9},
+                                             phrases));
           }
         }
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glm/gtc/quaternion.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "curves/sample_model.h"
@@ -8,6 +9,7 @@
 #include "exhibit/frame/frame_builder.h"
 #include "physics/manipulation/half_turn.h"
 #include "render/renderer.h"
+#include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
@@ -34,8 +36,8 @@ class ParticlePictures : public test::VulkanTest {
     pages_ = test::start_pages(*stage_->particles);
   }
 
-  render::FrameState frame(const scene::TipPush& push) const {
-    const ParticlesNow now{.set = &*stage_->particles, .pages = pages_, .push = push};
+  render::FrameState frame(const scene::TipPush& push, const servo::PictureNow* picture = nullptr) const {
+    const ParticlesNow now{.set = &*stage_->particles, .pages = pages_, .push = push, .picture = picture};
     Moment moment;
     moment.wall.material = 0;
     moment.wall.particles = &now;
@@ -100,6 +102,34 @@ TEST_F(ParticlePictures, AreRedrawnWhereASphereMovesAndAsIfAllWere) {
     }
   }
   EXPECT_LT(redrawn, 0.7);
+}
+
+// Luminance in place of colour (Rec. 709, of the encoded values).
+render::Image grey(render::Image image) {
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+    const double luminance = 0.2126 * image.rgba[i] + 0.7152 * image.rgba[i + 1] + 0.0722 * image.rgba[i + 2];
+    image.rgba[i] = image.rgba[i + 1] = image.rgba[i + 2] = static_cast<std::uint8_t>(luminance);
+  }
+  return image;
+}
+
+// Of one sphere, in grey, from a small window to the widest that the processor draws.
+TEST_F(ParticlePictures, TellMeasuredComputedAndStaleApartWithoutColour) {
+  const scene::TipPush push = test::push_of(*stage_->particles, 1, physics::PushState::Free);
+  for (const std::uint32_t width_px : {400U, 1280U, 3840U}) {
+    auto renderer = make_renderer(stage_->wall_scene.scene(), stage_->renderer_options(width_px));
+    std::vector<render::Image> shown;
+    for (const servo::Known known : {servo::Known::Measured, servo::Known::Computed, servo::Known::Stale}) {
+      servo::PictureNow picture{.level = 2, .known = std::vector(stage_->particles->particles.size(), servo::Known{})};
+      picture.known[2] = known;
+      renderer.render(frame(push, &picture));
+      shown.push_back(grey(renderer.read_eye(scene::Eye::Left)));
+    }
+    for (const auto& [a, b] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 2U}}) {
+      const double pixels = static_cast<double>(shown[a].rgba.size()) / 4.0;
+      EXPECT_GE(test::difference(shown[a], shown[b], 24).share_beyond * pixels, 4.0) << width_px << ": " << a << b;
+    }
+  }
 }
 
 }  // namespace particle_pictures_test

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "exhibit/state/particles_now.h"
@@ -59,12 +60,12 @@ class Person {
   void solve(double most_s) {
     for (const double end_s = time_s() + most_s; time_s() < end_s;) {
       rest(0.5);
-      const auto pattern =
-          scene::pattern_state(set_, pattern_, *places_of({.set = &set_, .pages = recording_.pages()}));
+      const auto pattern = scene::pattern_state(set_, pattern_, *places_of({.set = &set_, .pages = seen()}));
       std::size_t worst = 0;
       const auto off = [&](std::size_t i) { return glm::distance(target(i), place(pattern->match.particles[i])); };
       for (std::size_t i = 1; i < pattern_.targets.size(); ++i) worst = off(i) > off(worst) ? i : worst;
       if (off(worst) < kNearM) break;
+      if (looks) look_at(pattern->match.particles[worst]);
       push(pattern->match.particles[worst], target(worst));
     }
     rest(1.0);
@@ -74,11 +75,25 @@ class Person {
   void look() {
     for (std::size_t i = 0; i < set_.particles.size(); ++i) {
       if (recording_.picture->now().known[i] == servo::Known::Measured) continue;
-      go(m_per_m_ * place(i), kHighM, kWayMPerS);
-      ++recording_.looks;
-      rest(3.6);
+      look_at(i);
     }
   }
+
+  // Sees nothing and does nothing, as the sample drifts.
+  void wait(double seconds) { recording_.run(static_cast<int>(1e3 * seconds)); }
+
+  // Follows the moves of the set.
+  void follow_plan() {
+    const double low_m = 0.3 * scene::median_radius(set_).si;
+    const auto reach = [&](const physics::LeverBase& to, double m_per_s) {
+      go(m_per_m_ * glm::dvec2(to.position.x.si, to.position.y.si), m_per_m_ * std::max(low_m, to.z.si), m_per_s);
+    };
+    reach(set_.start, kWayMPerS);
+    for (const scene::HandMove& move : set_.moves) reach(move.to, move.to.z.si > low_m ? kWayMPerS : kPushMPerS);
+    rest(1.0);
+  }
+
+  bool looks = false;  // again, before each push
 
   double time_s() const { return 1e-9 * static_cast<double>(recording_.now_ns); }
   servo::Recording& recording() { return recording_; }
@@ -88,26 +103,37 @@ class Person {
     return {pattern_.targets[i].position.x.si, pattern_.targets[i].position.y.si};
   }
   glm::dvec2 place(std::size_t particle) const {
-    const auto pose = pose_of({.set = &set_, .pages = recording_.pages()}, particle);
+    const auto pose = pose_of({.set = &set_, .pages = seen()}, particle);
     return {pose->x_m, pose->y_m};
+  }
+
+  // The particles, or at a level the picture of them.
+  std::span<const scene::ParticlePage> seen() const {
+    return recording_.picture ? recording_.picture->shown() : recording_.pages();
+  }
+
+  void look_at(std::size_t particle) {
+    go(m_per_m_ * place(particle), kHighM, kWayMPerS);
+    ++recording_.looks;
+    rest(3.6);
   }
 
   void push(std::size_t particle, const glm::dvec2& to_m) {
     const glm::dvec2 from_m = place(particle), along = glm::normalize(to_m - from_m);
     go(m_per_m_ * (from_m - kBehindM * along), kHighM, kWayMPerS);
     go(at_m_, kLowM, kWayMPerS);
-    std::deque<glm::dvec2> seen{place(particle)};
+    std::deque<glm::dvec2> late{place(particle)};
     const auto delay = static_cast<std::size_t>(std::lround(kDelayS / kStepS));
     const glm::dvec2 across(-along.y, along.x);
     for (int i = 0; i < 2000; ++i) {
-      const glm::dvec2 there_m = seen.front();
+      const glm::dvec2 there_m = late.front();
       if (glm::dot(to_m - there_m, along) < kPushMPerS / m_per_m_ * kDelayS) break;
       const glm::dvec2 left = glm::normalize(to_m - there_m), aside(-left.y, left.x);
       const double off_m = glm::dot(at_m_ - m_per_m_ * there_m, aside);
       if (std::abs(off_m) > m_per_m_ * kBehindM * 0.7) break;  // lost
       step(at_m_ + kStepS * (kPushMPerS * left - kSteerPerS * off_m * aside), kLowM);
-      seen.push_back(place(particle));
-      if (seen.size() > delay) seen.pop_front();
+      late.push_back(place(particle));
+      if (late.size() > delay) late.pop_front();
     }
     go(at_m_, kHighM, kWayMPerS);
   }
@@ -197,6 +223,39 @@ TEST(ParticleTask, IsJudgedByMeasuredPlacesAlone) {
   EXPECT_EQ(looked.strokes, pushed.strokes);
   EXPECT_LT(looked.time_s, pushed.time_s) << "up to the last lift, without the looks";
   EXPECT_EQ(live_score(set, person.recording().sessions.front(), 17), looked) << "at 60 frames a second";
+}
+
+// After ten minutes of drift the picture is off by more than a radius.
+TEST(ParticleTaskOfAStudent, FailsByAnOldPictureAndIsSolvedByLooks) {
+  const scene::ParticleSet set = test::particle_set("gold-row");
+  for (const bool looks : {false, true}) {
+    Person person(set, 11, 2);
+    person.looks = looks;
+    person.wait(600.0);
+    person.solve(600.0);
+    person.look();
+    ParticleTask task(set);
+    const auto replayed = servo::replay(person.recording().sessions.front(), {},
+                                        [&](const servo::ReplayedTick& tick) { task.hear(tick); });
+    ASSERT_TRUE(replayed && replayed->identical());
+    EXPECT_EQ(task.score().state == scene::TaskState::Done, looks) << scene::text_of(task.score());
+    if (looks) {
+      EXPECT_LE(task.score().rms_m, scene::median_radius(set).si);
+    }
+  }
+}
+
+TEST(ParticleTaskOfAStudent, LaysARodAcrossItsPadsInThreeMinutes) {
+  const scene::ParticleSet set = test::particle_set("tube-and-electrodes");
+  Person person(set, 3);
+  const double begun_s = person.time_s();
+  person.follow_plan();
+  EXPECT_LT(person.time_s() - begun_s, 180.0);
+  const auto state = scene::pattern_state(set, scene::shared_pattern_of(set),
+                                          *places_of({.set = &set, .pages = person.recording().pages()}));
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->touched, 2U);
+  EXPECT_TRUE(state->done());
 }
 
 }  // namespace particle_task_test

@@ -172,6 +172,27 @@ TEST_F(ParticlesPanel, CallsNoPatternDoneBeforeAllOfItHasBeenMeasured) {
   EXPECT_THAT(shown().subtitle, HasSubstr("by computed places: look again (F5)"));
 }
 
+TEST_F(ParticlesPanel, WarnsOfALookThatPressesTooHard) {
+  servo::PictureNow picture{.level = 1, .known = std::vector<servo::Known>(set_.particles.size())};
+  ParticlesNow now{.set = &set_, .pages = pages_, .picture = &picture, .look_load_n = 34e-12};
+  const auto shown = [&](Phrase name, const Phrases& phrases = test::english()) {
+    return row(particles_panel(now, phrases), name, phrases);
+  };
+  EXPECT_EQ(shown(Phrase::LookLoad), render::DataRow{}) << "gentle";
+  now.look_load_n = 136e-12;
+  EXPECT_EQ(shown(Phrase::LookLoad),
+            (render::DataRow{"Load of a look", "0.136 nN",
+                             "too hard: a look pushes particles away; gentle up to 0.0679 nN"}));
+  const Phrases german = Phrases::load(test::kPhraseFolder + "de.toml").value();
+  EXPECT_EQ(shown(Phrase::LookLoad, german).source, "zu hart: Die Messung schiebt Teilchen weg; sanft bis 0,0679 nN");
+  picture.looks = 1;
+  picture.newest = {.particle = 2, .lines = 33, .off_m = std::nullopt, .swept_above_n = 67.9e-12};
+  EXPECT_EQ(shown(Phrase::LookName),
+            (render::DataRow{"Newest look", "pushed away", "particle 3: the load was above its gentle 0.0679 nN"}));
+  now.picture = nullptr;
+  EXPECT_EQ(shown(Phrase::LookLoad), render::DataRow{}) << "no looks";
+}
+
 TEST_F(ParticlesPanel, SaysHowManyPushesCanBeTakenBack) {
   set_.targets.clear();
   scene::TipPush push = test::push_of(set_, 0, PushState::Free);

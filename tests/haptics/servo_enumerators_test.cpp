@@ -49,8 +49,12 @@ void feel(ServoBench& bench, scene::ScaleMode scale) {
   bench.move(-0.005, 0.3);
   for (const scene::ScanHand hand : core::kEnumerators<scene::ScanHand>) {
     for (int tick = 0; tick < 20; ++tick) {
-      bench.renderer.store(scene::ScanLead{
-          .time_ns = bench.now_ns, .apex_xy_m = {1e-11 * tick, 0.0}, .gain_per_s = 100.0, .hand = hand, .feedback = 1});
+      bench.renderer.store(scene::ScanLead{.time_ns = bench.now_ns,
+                                           .apex_xy_m = {1e-11 * tick, 0.0},
+                                           .height_m = 1e-9,
+                                           .gain_per_s = 100.0,
+                                           .hand = hand,
+                                           .feedback = 1});
       bench.tick();
     }
   }

@@ -28,7 +28,8 @@ class PatternTaskTest : public ::testing::Test {
                .base_m = {x_m, 0.0, z_m},
                .lateral_n = {lateral_n, 0.0},
                .places = places_,
-               .guided = guided_});
+               .guided = guided_,
+               .swept = swept_});
   }
   void wait(int ticks, double z_m = kHighM) {
     for (int i = 0; i < ticks; ++i) tick(z_m);
@@ -59,7 +60,23 @@ class PatternTaskTest : public ::testing::Test {
   std::int64_t now_ns_ = 7'000'000'000;
   std::uint64_t places_ = 99;
   bool guided_ = false;
+  bool swept_ = false;
 };
+
+TEST_F(PatternTaskTest, CountsAllThatAScanSweepsAsOnePush) {
+  swept_ = true;
+  for (int i = 0; i < 20; ++i) {
+    if (i % 3 == 0) ++places_;
+    tick(kHighM);
+  }
+  swept_ = false;
+  wait(10);
+  EXPECT_EQ(score().strokes, 1U);
+  order(EventKind::PushTakenBack);
+  EXPECT_EQ(score().undos, 1U);
+  stroke();
+  EXPECT_EQ(score().strokes, 2U);
+}
 
 TEST_F(PatternTaskTest, BeginsWithTheFirstPush) {
   wait(3000);

@@ -44,15 +44,18 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   EXPECT_FALSE(servo.new_transforms());
   renderer.store(RendererHeartbeat{.leaving = 2});
   EXPECT_FALSE(servo.new_heartbeat());
-  for (const ScanLead& bad : {ScanLead{.time_ns = -1}, ScanLead{.apex_xy_m = {kNan, 0}}, ScanLead{.height_m = kNan},
-                              ScanLead{.gain_per_s = -1}, ScanLead{.gain_per_s = 2 * kMostScanGainPerS},
-                              ScanLead{.hand = static_cast<ScanHand>(3)}, ScanLead{.feedback = 2}}) {
+  for (const ScanLead& bad :
+       {ScanLead{.time_ns = -1}, ScanLead{.apex_xy_m = {kNan, 0}}, ScanLead{.height_m = kNan},
+        ScanLead{.gain_per_s = -1}, ScanLead{.gain_per_s = 2 * kMostScanGainPerS},
+        ScanLead{.hand = static_cast<ScanHand>(4)}, ScanLead{.feedback = 2}, ScanLead{.hand = ScanHand::Looks},
+        ScanLead{.apex_xy_m = {2e-3, 0}, .height_m = 1e-9, .hand = ScanHand::Looks},
+        ScanLead{.load_pn = kMostLookLoadPn + 1}}) {
     renderer.store(bad);
     EXPECT_FALSE(servo.new_scan_lead());
   }
   renderer.store(ScanLead{.hand = ScanHand::Scans, .feedback = 1});
   EXPECT_TRUE(servo.new_scan_lead());
-  EXPECT_EQ(servo.refused_blocks(), 12U);
+  EXPECT_EQ(servo.refused_blocks(), 15U);
 
   servo.store(TipState{.tip = {.z_m = kNan}});
   EXPECT_FALSE(renderer.tip_state());

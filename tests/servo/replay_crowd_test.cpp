@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "servo/recorded_servo.h"
+#include "servo/replay.h"
 #include "servo/session_file.h"
 #include "support/deep.h"
 #include "support/particles/gold_particles.h"
@@ -44,6 +45,10 @@ TEST(ReplayOfParticles, GivesEveryBitOfTwoHundredAgain) {
   const auto loaded = load_session(folder.file("crowd.afms"));
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->samples.size(), session.samples.size());
+  // a film needs the file alone
+  const auto end = replay_particles(*loaded, loaded->samples.back().time_ns);
+  ASSERT_TRUE(end) << end.error().message;
+  EXPECT_EQ(end->pages, recording.pages());
 }
 
 }  // namespace replay_crowd_test

@@ -79,6 +79,7 @@ class ParticleRows {
   std::vector<render::DataRow> take() {
     add_task();
     add_picture();
+    add_look_load();
     add_plan();
     add_push();
     add_thresholds();
@@ -133,10 +134,24 @@ class ParticleRows {
             quantity_text(physics::Length(picture.doubt_m), physics::kLengthUnits, phrases_)));
     if (picture.looks == 0) return;
     const servo::LookResult& look = picture.newest;
+    if (look.swept_above_n > 0.0) {
+      add(Phrase::LookName, phrases_[Phrase::LookSwept],
+          phrases_.text<Phrase::LookSweptBy>(fmt::format("{}", look.particle + 1),
+                                             force_text(Force(look.swept_above_n), phrases_)));
+      return;
+    }
     add(Phrase::LookName,
         look.off_m ? quantity_text(physics::Length(*look.off_m), physics::kLengthUnits, phrases_)
                    : phrases_[Phrase::LookMissed],
         phrases_.text<Phrase::LookOff>(fmt::format("{}", look.particle + 1), fmt::format("{}", look.lines)));
+  }
+
+  // Only a load that is not gentle: a warning.
+  void add_look_load() {
+    const Force load(now_.look_load_n);
+    if (now_.picture == nullptr || !(load > gentle_look(*now_.set))) return;
+    add(Phrase::LookLoad, force_text(load, phrases_),
+        phrases_.text<Phrase::LookSweeps>(force_text(gentle_look(*now_.set), phrases_)));
   }
 
   // Demands of a planned push on the hand.

@@ -17,7 +17,9 @@ using enum HeardEvent;
 // rise takes back; of a tapping lever a click with a glide down or up; a short rise for a pull that moves one, a pluck
 // for a contact that tears, a long rise for a particle that is lifted, a fall with a knock for one that is set down;
 // three notes up for a pattern. On a soft sample a scrape for the first mark, two dull knocks where the tip stops, a
-// rough rise for a hand that is too fast. With ink a drop, and a short rise where the liquid tears.
+// rough rise for a hand that is too fast. With ink a drop, and a short rise where the liquid tears. A rough note that
+// falls for a particle that a scan pushes away. A short step up, in the ear of its side, for one
+// that goes astray.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -158,6 +160,16 @@ constexpr std::array kRows{
                   Phrase::SayLiquidTorn,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.100, 587, 1175, 0.24, 0.3}}}},
+    HeardEventRow{ParticleSwept,
+                  Phrase::HeardParticleSwept,
+                  Phrase::SayParticleSwept,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.050, 659, 659, 0.22, 0.6}, SignalNote{0.070, 0.140, 659, 349, 0.24, 0.6}}}},
+    HeardEventRow{ParticleAstray,
+                  Phrase::HeardAstrayRight,
+                  Phrase::SayAstrayRight,
+                  Spoken::OnRequest,
+                  {{SignalNote{0, 0.050, 587, 698, 0.16, 0.2}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -31,7 +31,9 @@ class Stream {
 
   void hold(const scene::TipSample& sample) {
     if (const auto heard = tip_ear_.add(sample)) play(*heard);
-    const Tone tone = is_audible(sample) ? ear_.tone(sample) : Tone{.hz = hz_, .level = 0};
+    const bool pushed = tip_ear_.push().force_n > 0.0;
+    const Tone heard = pushed ? tone_of(tip_ear_.push()) : ear_.tone(sample);
+    const Tone tone = is_audible(sample) ? heard : Tone{.hz = hz_, .level = 0};
     hz_ = tone.hz;
     const std::int64_t at = sample_at(sample.time_ns, start_ns_);
     synthesizer_.set_tone(at, tone);

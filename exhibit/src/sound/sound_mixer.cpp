@@ -13,14 +13,20 @@ constexpr float kVoiceStep = 1.0F / (0.004F * kSoundRateHz);  // fades an interr
 }  // namespace
 
 void SoundMixer::heard(const scene::TipSample& sample) noexcept {
+  const auto event = ear_.add(sample);
   tip_updates_.push({.time_ns = sample.time_ns,
                      .force_n = sample.tip.force_n,
                      .swing = sample.swing,
+                     .push = ear_.push(),
                      .material = sample.material,
                      .event = false,
                      .audible = is_audible(sample)});
-  if (const auto event = ear_.add(sample)) {
-    tip_updates_.push({.time_ns = event->time_ns, .material = event->material, .event = true, .what = event->event});
+  if (event) {
+    tip_updates_.push({.time_ns = event->time_ns,
+                       .force_n = event->force_n,
+                       .material = event->material,
+                       .event = true,
+                       .what = event->event});
   }
 }
 
@@ -60,7 +66,7 @@ void SoundMixer::take(const TipUpdate& update) noexcept {
     return;
   }
   // without a force the tone fades at its pitch
-  Tone tone = ear.tone(update.force_n, update.swing);
+  Tone tone = update.push.force_n > 0.0 ? tone_of(update.push) : ear.tone(update.force_n, update.swing);
   if (!update.audible) tone = {.hz = last_hz_, .level = 0};
   last_hz_ = tone.hz;
   synthesizer_.set_tone(at, tone);

@@ -55,6 +55,8 @@ std::string filled(const Phrases& phrases, Phrase phrase, const std::string& for
   return phrases.filled(phrase, values);
 }
 
+bool is_left(const Heard& heard) { return heard.event == HeardEvent::ParticleAstray && heard.force_n < 0.0; }
+
 }  // namespace
 
 std::string spoken_force(const Phrases& phrases, double force_n) {
@@ -71,11 +73,13 @@ std::string shown_force(const Phrases& phrases, double force_n) {
 }
 
 std::string caption_of(const Phrases& phrases, const Heard& heard, const std::string& sample) {
-  return filled(phrases, row_of(heard.event).caption, shown_force(phrases, heard.force_n), sample);
+  const Phrase caption = is_left(heard) ? Phrase::HeardAstrayLeft : row_of(heard.event).caption;
+  return filled(phrases, caption, shown_force(phrases, heard.force_n), sample);
 }
 
 std::string said_of(const Phrases& phrases, const Heard& heard, const std::string& sample) {
-  return filled(phrases, row_of(heard.event).said, spoken_force(phrases, heard.force_n), sample);
+  const Phrase said = is_left(heard) ? Phrase::SayAstrayLeft : row_of(heard.event).said;
+  return filled(phrases, said, spoken_force(phrases, heard.force_n), sample);
 }
 
 std::string said_of_state(const Phrases& phrases, const scene::TipState& tip, const std::string& sample,

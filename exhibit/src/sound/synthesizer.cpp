@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "exhibit/sound/stream_clock.h"
 
@@ -17,6 +18,7 @@ constexpr double kOctaveShare = 0.5;  // amplitude of the octave at full edge
 constexpr double kFollowS = 0.004;
 constexpr double kAttackS = 0.005;
 constexpr double kKnee = 0.6;
+constexpr double kHissBand = 3.0;  // random values in a period of the tone
 
 // One period with its octave, no louder than a pure tone.
 double wave(double phase, double edge) noexcept {
@@ -47,6 +49,17 @@ Pan pan(double side) {
 
 double rise(double time_s, double length_s) {
   return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp(time_s / length_s, 0.0, 1.0));
+}
+
+// Between two random numbers of xorshift32 (Marsaglia, J. Stat. Softw. 8 (2003) 14), always the same ones.
+double Synthesizer::Noise::next(double share) noexcept {
+  for (along += share; along >= 1.0; along -= 1.0) {
+    state ^= state << 13U;
+    state ^= state >> 17U;
+    state ^= state << 5U;
+    from = std::exchange(to, 2.0 * static_cast<double>(state) / 4294967295.0 - 1.0);
+  }
+  return mixed(from, to, rise(along, 1.0));
 }
 
 void Synthesizer::Followed::step() noexcept { now += (wanted - now) / (kFollowS * kSoundRateHz); }
@@ -86,7 +99,8 @@ Tone Synthesizer::tone_now() noexcept {
   return {.hz = from_.tone.hz * std::pow(to.tone.hz / from_.tone.hz, share),
           .level = mixed(from_.tone.level, to.tone.level, share),
           .side = mixed(from_.tone.side, to.tone.side, share),
-          .edge = mixed(from_.tone.edge, to.tone.edge, share)};
+          .edge = mixed(from_.tone.edge, to.tone.edge, share),
+          .hiss = mixed(from_.tone.hiss, to.tone.hiss, share)};
 }
 
 Synthesizer::Frame Synthesizer::next_of_tone() noexcept {
@@ -94,11 +108,15 @@ Synthesizer::Frame Synthesizer::next_of_tone() noexcept {
   level_.wanted = tone.level;
   side_.wanted = channels_ == Channels::Mono ? 0.0 : tone.side;
   edge_.wanted = tone.edge;
+  hiss_.wanted = tone.hiss;
   level_.step();
   side_.step();
   edge_.step();
+  hiss_.step();
   tone_gain_.step();
-  const double sample = kToneAmplitude * level_.now * tone_gain_.now * wave(phase_, edge_.now);
+  double shape = wave(phase_, edge_.now);
+  if (hiss_.now != 0.0) shape = mixed(shape, noise_.next(kHissBand * tone.hz / kSoundRateHz), hiss_.now);
+  const double sample = kToneAmplitude * level_.now * tone_gain_.now * shape;
   phase_ += tone.hz / kSoundRateHz;
   phase_ -= std::floor(phase_);
   const Pan sides = pan(side_.now);

@@ -2,6 +2,7 @@
 #include "exhibit/sound/tip_ear.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/enumerators.h"
@@ -40,6 +41,7 @@ constexpr auto kRows = std::to_array<EventRow>({
     {physics::EventKind::HandTooFast, HeardEvent::HandTooFast, ForceOf::Nothing},
     {physics::EventKind::InkFlows, HeardEvent::InkFlows, ForceOf::Nothing},
     {physics::EventKind::LiquidTorn, HeardEvent::LiquidTorn, ForceOf::Before},
+    {physics::EventKind::ParticleSwept, HeardEvent::ParticleSwept, ForceOf::Before},
 });
 static_assert(core::has_row_for_each(kRows, &EventRow::kind));
 
@@ -54,6 +56,8 @@ Heard heard_of(const scene::TipEvent& event) {
 }
 
 double side_of(const Heard& heard, const Ear& ear) {
+  constexpr double kAstraySide = 0.7;
+  if (heard.event == HeardEvent::ParticleAstray) return std::copysign(kAstraySide, heard.force_n);
   const bool jump = heard.event == HeardEvent::SnapIn || heard.event == HeardEvent::PullOff;
   return jump ? ear.tone(heard.force_n).side : 0.0;
 }
@@ -97,11 +101,19 @@ std::optional<Heard> TipEar::add(const scene::TipSample& sample) {
   const double before_n = std::exchange(last_force_n_, sample.tip.force_n);
   const std::int64_t before_ns = std::exchange(last_ns_, sample.time_ns);
   const bool touch = touches(sample);
+  const PushEar::Astray astray = push_.add(sample);
   if (const auto change = change_of_force(sample.servo_state)) {
     // after Stop this is no fault, whatever the governor's state
     const bool stopped = *change == HeardEvent::Fault && sample.renderer == scene::RendererLink::Stopped;
     return Heard{
         .event = stopped ? HeardEvent::ForceOff : *change, .time_ns = sample.time_ns, .material = sample.material};
+  }
+  if (astray != PushEar::Astray::No && is_audible(sample)) {
+    const bool left = astray == PushEar::Astray::Left;
+    return Heard{.event = HeardEvent::ParticleAstray,
+                 .time_ns = sample.time_ns,
+                 .force_n = left ? -push().force_n : push().force_n,
+                 .material = sample.material};
   }
   if (!touch) return std::nullopt;
   // time at which the force crossed zero between the two ticks

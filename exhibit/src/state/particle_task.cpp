@@ -17,7 +17,8 @@ void ParticleTask::add(const scene::TipSample& sample) {
                             .lift_n = sample.push.lift_n,
                             .places = sample.push.digest,
                             .guided = sample.plan.guided != 0,
-                            .carries = sample.push.state == physics::PushState::Carried});
+                            .carries = sample.push.state == physics::PushState::Carried,
+                            .swept = sample.scan.hand == scene::ScanHand::Looks});
 }
 
 std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(

@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/state/particles_now.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/pushed_particles.h"
+#include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
 
 namespace afm::exhibit {
+
+physics::Force gentle_look(const scene::ParticleSet& set) {
+  physics::Force gentle{std::numeric_limits<double>::infinity()};
+  for (const physics::ParticleSpecies& species : set.setup.species) {
+    gentle = std::min(gentle, physics::climbing_load(species, set.setup.tip, set.setup.tip_friction));
+  }
+  return gentle;
+}
 
 std::optional<std::vector<physics::ParticlePlace>> places_of(const ParticlesNow& now) {
   std::vector<physics::ParticlePlace> places;

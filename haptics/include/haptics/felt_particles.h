@@ -22,9 +22,12 @@
 
 namespace afm::scene {
 class SharedSegment;
-}
+struct ScanLead;
+}  // namespace afm::scene
 
 namespace afm::haptics {
+
+class SweepingScan;
 
 // Particles on the sample, as felt by the hand and as published: the one owner of their places.
 //
@@ -40,6 +43,8 @@ namespace afm::haptics {
 //   on the sample, places of the tip those of the scanner, from which the sample drifts away.
 // - A tip with a sphere on it is among the particles at any height. A lift() puts the sphere back where it was picked
 //   up.
+// - At level 1 and 2 a scan can look at them while the tip is off them, and sweep them (SweepingScan). That moves
+//   particles and is a stroke, but gives no force.
 //
 // The constructor and resume() allocate; everything else may be called in a tick of the servo, by its thread.
 class FeltParticles {
@@ -48,6 +53,7 @@ class FeltParticles {
 
   // `particles` is valid (scene::validate) and has particles, `scale` is its particle_scale().
   FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale, const GrooveLimits& groove = {});
+  ~FeltParticles();
 
   // Continues with the poses of these pages, of the same particles; a wait for a lift begins. A sphere that hung on
   // the tip is set down below it, or where there is room next to it. Throws std::invalid_argument unless the pages are
@@ -89,6 +95,13 @@ class FeltParticles {
   double stored_j() const noexcept { return stored_j_; }                    // on the hand; 0 without a touch
   double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }  // on the hand, upper limit
 
+  // The scan in effect: while one looks with a load that is not gentle, moves its tip, and adds an event for each
+  // particle that it begins to push. Call once a tick, after step().
+  void sweep(const scene::ScanLead& scan, double elapsed_s, ParticlePush& step) noexcept;
+
+  // Ends a look that sweeps; the next begins with the next scan.
+  void end_sweep() noexcept;
+
   // State after the newest step, without time and tick.
   scene::TipPush push() const noexcept;
   scene::PushSample sample() const noexcept;
@@ -108,7 +121,7 @@ class FeltParticles {
     std::uint64_t yields = 0, dragged = 0, torn = 0, lifted = 0, set_down = 0;
   };
 
-  void move_poses(const physics::PushTick& tick) noexcept;
+  std::size_t move_poses(const physics::PushedParticles& by) noexcept;
   void put(std::uint32_t particle, const scene::ParticlePose& there) noexcept;
   void change(std::uint32_t particle, const scene::ParticlePose& now) noexcept;
   void account(const physics::PushTick& tick) noexcept;
@@ -145,6 +158,8 @@ class FeltParticles {
   std::uint64_t accounts_ = 0;
   std::uint64_t yields_before_ = 0;  // counts of the tools used before, modulo 2^64
   std::uint64_t exhausted_before_ = 0;
+  std::unique_ptr<SweepingScan> sweeping_;  // null at level 0
+  bool sweep_ended_ = false;                // true: the scan in effect sweeps no more
 };
 
 // Scale of particles, valid ones, with a tool that they allow (scene::tool_refusal). Fails where particle_scale() does,

@@ -104,13 +104,13 @@ class ServoLoop {
   };
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
-  Wanted meet_sample(std::int64_t elapsed_ns) noexcept;
+  Wanted meet_sample(double elapsed_s) noexcept;
   std::optional<ScanGuide::Target> guide_target() const noexcept;
   void change_model() noexcept;
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
   FeltParticles* particles() const noexcept;  // null: none
-  void put_particles() noexcept;
+  void put_particles(double elapsed_s) noexcept;
   void put_marks() noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
   void publish_events(std::int64_t now_ns) noexcept;

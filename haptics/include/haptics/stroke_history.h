@@ -21,8 +21,8 @@ class StrokeHistory {
 
   void begin() noexcept { begun_ = false, ++number_; }
 
-  // Call before a particle is moved: the first pose in a stroke is the one that is kept.
-  void keep(std::uint32_t particle, const scene::ParticlePose& before) noexcept;
+  // Call before a particle is moved: the first pose in a stroke is the one that is kept. Returns whether it is.
+  bool keep(std::uint32_t particle, const scene::ParticlePose& before) noexcept;
 
   std::size_t size() const noexcept { return strokes_; }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "haptics/contact/sweeping_scan.h"
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/tip_contact.h"
 #include "physics/manipulation/tip_hold.h"
@@ -84,7 +85,10 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
   }
   digest_ = scene::digest_of(pages_, particles_.size());
   start_ = pages_;
+  if (level_ > 0) sweeping_ = std::make_unique<SweepingScan>(particles);
 }
+
+FeltParticles::~FeltParticles() = default;
 
 void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   if (pages.size() != pages_.size()) throw std::invalid_argument("the pages are those of other particles");
@@ -109,6 +113,7 @@ void FeltParticles::resume(std::span<const scene::ParticlePage> pages) {
   }
   digest_ = scene::digest_of(pages_, particles_.size());
   strokes_ = StrokeHistory(particles_.size());
+  end_sweep();
   lift();
 }
 
@@ -173,6 +178,7 @@ void FeltParticles::drop() noexcept {
 bool FeltParticles::take_back() noexcept {
   if (tip_ == Tip::Among) return false;
   lift();
+  end_sweep();
   return strokes_.take_back(
       [this](std::uint32_t particle, const scene::ParticlePose& before) { put(particle, before); });
 }
@@ -180,6 +186,7 @@ bool FeltParticles::take_back() noexcept {
 bool FeltParticles::put_back() noexcept {
   if (tip_ == Tip::Among) return false;
   lift();
+  end_sweep();
   strokes_.begin();
   bool moved = drift_.drifts();
   drift_.begin_again();
@@ -232,7 +239,7 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   const physics::PushTick& tick = particles_.move_to(base_at(at_m), physics::Time(elapsed_s));
   step.near = tick.near;
   step.given_j = scale_.hand_n_per_n * scale_.hand_m_per_m * glm::dot(glm::dvec2(push_n_), drift_.step_m());
-  move_poses(tick);
+  move_poses(particles_);
   if (carried != physics::kNoParticle && !carries()) lay_down(carried);
   account(tick);
   note_events(tick, before, step);
@@ -242,17 +249,20 @@ ParticlePush FeltParticles::step(const glm::dvec2& tip_xy_m, double z_m, double 
   return step;
 }
 
-void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
-  for (const std::uint32_t i : particles_.moved()) {
+// Poses of the particles that the newest tick moved; returns how many of them the stroke had not moved before.
+std::size_t FeltParticles::move_poses(const physics::PushedParticles& by) noexcept {
+  const physics::PushTick& tick = by.last();
+  std::size_t begun = 0;
+  for (const std::uint32_t i : by.moved()) {
     scene::ParticlePose moved = pose(i);
-    strokes_.keep(i, moved);
-    const glm::dvec2 to_m = flat(particles_.position(i)), way_m = to_m - glm::dvec2(moved.x_m, moved.y_m);
+    if (strokes_.keep(i, moved)) ++begun;
+    const glm::dvec2 to_m = flat(by.position(i)), way_m = to_m - glm::dvec2(moved.x_m, moved.y_m);
     moved.x_m = to_m.x;
     moved.y_m = to_m.y;
     const bool alone = tick.state == physics::PushState::Slides || tick.state == physics::PushState::Rolls;
     const bool hangs = tick.state == physics::PushState::Carried && tick.particle == i;
     moved.moved = alone || hangs ? tick.state : physics::PushState::Several;
-    if (turns_flat(i)) scene::set_turn(moved, particles_.turn(i));
+    if (turns_flat(i)) scene::set_turn(moved, by.turn(i));
     if (moved.moved == physics::PushState::Rolls) {
       const double radius_m = setup_.species[particles_.species(i)].contact.tip_radius.si;
       moved.orientation = rolled(moved.orientation, way_m, radius_m);
@@ -260,6 +270,7 @@ void FeltParticles::move_poses(const physics::PushTick& tick) noexcept {
     if (moved.moved == physics::PushState::Slides && tick.normal.si > 0.0) spin(tick, i, moved);
     change(i, moved);
   }
+  return begun;
 }
 
 // Upward part of the strongest contact, by the flank or the cap that touches.

@@ -12,8 +12,8 @@ constexpr std::size_t kPosesBesideNewest = std::size_t{16} * scene::kMostStrokes
 StrokeHistory::StrokeHistory(std::size_t particle_count)
     : kept_(particle_count + kPosesBesideNewest), kept_in_(particle_count, 0) {}
 
-void StrokeHistory::keep(std::uint32_t particle, const scene::ParticlePose& before) noexcept {
-  if (kept_in_[particle] == number_) return;
+bool StrokeHistory::keep(std::uint32_t particle, const scene::ParticlePose& before) noexcept {
+  if (kept_in_[particle] == number_) return false;
   kept_in_[particle] = number_;
   if (!begun_) {
     begun_ = true;
@@ -23,6 +23,7 @@ void StrokeHistory::keep(std::uint32_t particle, const scene::ParticlePose& befo
   }
   while (end_ - oldest() >= kept_.size()) forget_oldest();
   kept_[end_++ % kept_.size()] = {particle, before};
+  return true;
 }
 
 }  // namespace afm::haptics

@@ -178,8 +178,9 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
   hand_.turn_on = hand.turn_on;
 
   if (particles() != nullptr) particles()->drift_to(now_ns);
-  const Wanted wanted = meet_sample(elapsed_ns);
-  put_particles();
+  const double elapsed_s = 1e-9 * static_cast<double>(std::min(elapsed_ns, kMostTicksOfMotion * period_ns_));
+  const Wanted wanted = meet_sample(elapsed_s);
+  put_particles(elapsed_s);
   put_marks();
   bool pulled_off = false;
   for (std::uint32_t i = 0; i < touch_.response.event_count; ++i) {
@@ -215,11 +216,10 @@ void ServoLoop::tick(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
 }
 
 // While the scan leads the hand, the force law is silent and waits for a lift.
-ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
+ServoLoop::Wanted ServoLoop::meet_sample(double elapsed_s) noexcept {
   touch_ = {};
   Wanted wanted{.hand_height_m = glm::dot(hand_.from_contact_m, sample_.normal()), .energy = {}};
   if (model_ == nullptr) return wanted;
-  const double elapsed_s = 1e-9 * static_cast<double>(std::min(elapsed_ns, kMostTicksOfMotion * period_ns_));
   const ScanGuide::Pull pull = guide_.step({.hand_m = hand_.from_contact_m,
                                             .target = guide_target(),
                                             .force_on = governor_.state() == scene::ServoState::Running,
@@ -244,10 +244,11 @@ ServoLoop::Wanted ServoLoop::meet_sample(std::int64_t elapsed_ns) noexcept {
 }
 
 // Particles are put elsewhere without force alone, so that none jumps at a tip that is felt; an order that comes too
-// early is dropped. A look moves nothing, and needs only a tip that is off them.
-void ServoLoop::put_particles() noexcept {
+// early is dropped. A look needs only a tip that is off them; one with a load that is not gentle moves them.
+void ServoLoop::put_particles(double elapsed_s) noexcept {
   if (particles() == nullptr || model_ == nullptr) return;
   if (heard_.look && particles()->may_look()) touch_.push.add({.kind = physics::EventKind::LookedAgain});
+  particles()->sweep(scan_, elapsed_s, touch_.push);
   if (!governor_.released()) return;
   if (heard_.put_back && particles()->put_back()) {
     touch_.push.add({.kind = physics::EventKind::ParticlesPutBack});
@@ -293,8 +294,8 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 }
 
 // Follows the paper's procedure: choose, lift, press Turn-On. A selection, or an edit of the material under the tip,
-// waits until the tip is off the sample; then the force is removed, and only without force do law, scale and tool
-// change. Edits of other materials are not felt. A release removes the force at once.
+// waits until the tip is off the sample and its particles; then the force is removed, and only without force do law,
+// scale and tool change. Edits of other materials are not felt. A release removes the force at once.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
@@ -307,7 +308,8 @@ void ServoLoop::change_model() noexcept {
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (const bool release = newer && chosen_.release != 0; other || edited || release) {
-    if (!release && model_ != nullptr && model_->phase() == physics::Phase::Attached) return;
+    const bool pushes = touch_.push.touches && touch_.push.push_n != glm::dvec3(0.0);
+    if (!release && model_ != nullptr && (pushes || model_->phase() == physics::Phase::Attached)) return;
     governor_.disarm();
     changing_ = !governor_.released();
     if (changing_) return;
@@ -327,7 +329,10 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   model_->wait_for_lift();
   governor_.forget_motion();
   guide_.reset();
-  if (particles() != nullptr) particles()->drop();
+  if (particles() != nullptr) {
+    particles()->drop();
+    particles()->end_sweep();  // a session begins with particles that rest
+  }
   if (marks_) marks_->lift();
   model_->use(mode, particles(), marks_.get());
   const Scaling& scaling = model_->scaling();

@@ -34,6 +34,7 @@ enum class EventKind : std::uint32_t {
   HandTooFast = 19,        // the lever on a soft sample was raised, because the hand moves faster than it scratches
   InkFlows = 20,           // a tip with ink touched the sample
   LiquidTorn = 21,         // it came off, and the liquid between tip and sample tore
+  ParticleSwept = 22,      // a scan that presses too hard to climb a particle began to push it
 };
 
 // Name in reports and replays.
@@ -81,6 +82,8 @@ constexpr const char* name_of(EventKind kind) {
       return "ink-flows";
     case EventKind::LiquidTorn:
       return "liquid-torn";
+    case EventKind::ParticleSwept:
+      return "particle-swept";
   }
   return "unknown";
 }

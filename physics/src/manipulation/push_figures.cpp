@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fixed_point.h"
+#include "physics/manipulation/rod.h"
 
 namespace afm::physics {
 namespace {
@@ -43,6 +44,14 @@ Force gentle_load(const ParticleSpecies& species, const SphereCone& tip, double 
   if (!(slope > 0.0)) return Force(0.0);
   return Force(
       least_fixed_point([&](double load) { return slope * sliding_threshold(species, Force(load)).si; }, kLargestLoad));
+}
+
+Force climbing_load(const ParticleSpecies& species, const SphereCone& tip, double tip_friction) {
+  const bool locks = std::atan(tip_friction) >= tip.half_angle_rad;
+  const double friction = locks ? 0.0 : tip_friction;
+  if (!is_rod(species)) return gentle_load(species, tip, friction);
+  const double slope = std::tan(tip.half_angle_rad - std::atan(friction));
+  return slope * rod_threshold(species.measured_threshold, species.length, 0.5 * species.length);
 }
 
 Stiffness softest_lever(const ParticleSpecies& species, const SphereCone& tip) {

@@ -46,7 +46,7 @@ void PatternTask::add(const TaskTick& tick) {
   if (!last_) last_ = tick;
   TaskScore& score = task_.score;
   const bool lifted = tick.base_m[2] >= clear_z_m_ && !tick.carries, put = std::exchange(put_, false);
-  if (lifted) moving_ = guided_ = false;
+  if (lifted && !tick.swept) moving_ = guided_ = false;  // all that a scan sweeps is one stroke
   if (tick.places != last_->places) {
     if (!put) count_stroke(tick);
     lifted_ns_.reset();

@@ -326,8 +326,12 @@ bool is_valid(const HandScript& script) {
 }
 
 bool is_valid(const ScanLead& lead) {
+  const auto& [x_m, y_m] = lead.apex_xy_m;
+  const double reach_m = std::max(std::abs(x_m), std::abs(y_m)) + lead.height_m;
+  const bool square = lead.height_m > 0 && reach_m <= kFarthestPlanM;
   return is_field_valid(lead) && lead.time_ns >= 0 && lead.feedback <= 1 && lead.gain_per_s >= 0 &&
-         lead.gain_per_s <= kMostScanGainPerS;
+         lead.gain_per_s <= kMostScanGainPerS && lead.load_pn <= kMostLookLoadPn &&
+         (lead.hand != ScanHand::Looks || square);
 }
 
 bool is_valid(const RendererHeartbeat& heartbeat) {

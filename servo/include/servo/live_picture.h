@@ -25,11 +25,18 @@ namespace afm::servo {
 // measured so long ago that half its radius is in doubt (docs/manipulation.md, M62).
 enum class Known : std::uint8_t { Measured, Computed, Stale };
 
+// Square that a look scans, in the scanner's frame.
+struct LookSquare {
+  glm::dvec2 middle_m{0.0};
+  double half_m = 0;
+};
+
 // A look that has ended.
 struct LookResult {
   std::size_t particle = 0;       // the one that was nearest to the tip
   std::size_t lines = 0;          // fewer than physics::kLookLines if the hand came down
   std::optional<double> off_m{};  // from the place shown before to the measured one; nothing: not found
+  double swept_above_n = 0;       // gentle load, if the scan pressed harder and pushed the particle away; 0: it did not
 };
 
 // Picture as a wall shows it.
@@ -48,7 +55,8 @@ struct PictureNow {
 // Picture that a person has of the particles and pushes by, at level 1 and 2 (scene::SharedLevel), from what a servo
 // publishes, live or replayed: measured at first, computed while the tip pushes, and measured again around the shown
 // particle nearest to the tip when a person orders it (EventKind::LookedAgain). A look takes a line each 0.1 s, and
-// ends early when the tip comes down. At level 1 the computed places are those of the particles; at level 2 those of
+// ends early when the tip comes down. One whose scan presses harder than is gentle (ScanHand::Looks) finds no particle
+// that it pushes away. At level 1 the computed places are those of the particles; at level 2 those of
 // particles on a sample that rests, pushed by the same hand, without scatter. The same ticks give the same picture. One
 // thread; allocates.
 class LivePicture {
@@ -68,7 +76,8 @@ class LivePicture {
   const PictureNow& now() const { return now_; }  // after the newest sample
 
   bool looks() const { return look_ != nullptr; }
-  bool lifted() const { return lifted_; }  // a look can begin
+  std::optional<LookSquare> square() const;  // square of the current look
+  bool lifted() const { return lifted_; }    // a look can begin
 
  private:
   struct Look;
@@ -86,12 +95,14 @@ class LivePicture {
   void read_line();
   void end_look();
   void figure();
+  void follow_scan(const scene::ScanLead& scan, double elapsed_s);
 
   std::size_t count_;
   std::uint32_t level_;
   double clear_z_m_;
   physics::SampleDrift drift_;
   std::vector<double> reach_m_;                    // footprint radius of each particle
+  std::vector<double> gentle_n_;                   // load up to which a scan climbs each particle
   std::vector<physics::Time> stale_after_;         // age for each particle
   std::vector<physics::PlaceDoubt> doubts_;        // one for each particle
   std::vector<scene::ParticlePage> start_;         // places after all particles were put back

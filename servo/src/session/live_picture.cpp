@@ -11,8 +11,11 @@
 #include <utility>
 
 #include "haptics/felt_particles.h"
+#include "haptics/particle_push.h"
 #include "physics/manipulation/operators_picture.h"
 #include "physics/manipulation/particle_picture.h"
+#include "physics/manipulation/push_figures.h"
+#include "physics/quantity_text.h"
 
 namespace afm::servo {
 
@@ -50,7 +53,7 @@ bool same_place(const ParticlePose& a, const ParticlePose& b) {
 // The particles as a person knows them: on a sample that rests, without scatter.
 std::unique_ptr<scene::SharedParticles> known_set(const scene::SharedParticles& set) {
   auto known = std::make_unique<scene::SharedParticles>(set);
-  known->level = {};
+  known->level = {.level = 1};  // without drift, and with looks
   for (scene::SharedSpecies& species : known->species) species.scatter_seed = 0;
   return known;
 }
@@ -65,15 +68,15 @@ bool fits(const PictureState& state, const scene::SharedParticles& set) {
 // Lines at a distance of `line_m` from below, around `middle_m`.
 struct LivePicture::Look {
   std::size_t particle = 0;
-  glm::dvec2 middle_m{0.0};
-  double half_m = 0;
+  LookSquare square;
   std::int64_t begun_ns = 0;
   std::size_t done = 0;  // lines
+  double load_n = 0;     // load of a scan that presses harder than is gentle
   std::vector<ParticlePage>
       truth;  // particles on the sample, which rest while the tip is off them; empty: not yet known
   std::vector<std::optional<ParticlePose>> found{};  // one for each particle
 
-  double line_m() const { return half_m / kHalfLines; }
+  double line_m() const { return square.half_m / kHalfLines; }
   std::int64_t end_of_line(std::size_t line) const { return begun_ns + static_cast<std::int64_t>(line + 1) * kLineNs; }
 };
 
@@ -107,7 +110,10 @@ LivePicture::LivePicture(const scene::SharedParticles& set, double clear_z_m, st
   const physics::PushSetup setup = scene::push_setup(set);
   double widest_m = 0.0;
   for (std::uint32_t i = 0; i < set.count; ++i) {
-    const Length radius = setup.species[set.particles[i].species].contact.tip_radius;
+    const physics::ParticleSpecies& species = setup.species[set.particles[i].species];
+    const double gentle_n = physics::climbing_load(species, setup.tip, setup.tip_friction).si;
+    gentle_n_.push_back(set.particles[i].pinned != 0 ? std::numeric_limits<double>::infinity() : gentle_n);
+    const Length radius = species.contact.tip_radius;
     reach_m_.push_back(physics::footprint_radius(setup.tip, radius).si);
     widest_m = std::max(widest_m, reach_m_.back());
   }
@@ -156,6 +162,7 @@ void LivePicture::add(const scene::TipSample& sample, std::span<const ParticlePa
   tip_z_m_ = sample.tip.z_m;
   if (model_ && sample.level.met == 0) model_->lift();
   if (model_ && sample.level.met != 0) model_->step(tip_m_, tip_z_m_, elapsed_s);
+  follow_scan(sample.scan, elapsed_s);
   show_computed(truth);
   if (ordered_ && lifted_) begin_look();
   ordered_ = put_back_ = false;
@@ -172,6 +179,13 @@ void LivePicture::measure_all(std::span<const ParticlePage> truth) {
   state_.measured = state_.shown;
   state_.seen_ns.assign(count_, time_ns_);
   if (model_) model_->resume(state_.shown);
+}
+
+// A scan that presses harder than is gentle.
+void LivePicture::follow_scan(const scene::ScanLead& scan, double elapsed_s) {
+  if (look_ && scan.hand == scene::ScanHand::Looks) look_->load_n = 1e-12 * scan.load_pn;
+  haptics::ParticlePush push;
+  if (model_) model_->sweep(scan, elapsed_s, push);
 }
 
 void LivePicture::show_computed(std::span<const ParticlePage> truth) {
@@ -191,15 +205,17 @@ std::size_t LivePicture::nearest() const {
   return best;
 }
 
+std::optional<LookSquare> LivePicture::square() const { return look_ ? std::optional(look_->square) : std::nullopt; }
+
 // A new order begins a new look.
 void LivePicture::begin_look() {
   const std::size_t particle = nearest();
-  look_ = std::make_unique<Look>(Look{.particle = particle,
-                                      .middle_m = place_of(pose_in(state_.shown, particle)),
-                                      .half_m = kLookReach * reach_m_[particle],
-                                      .begun_ns = time_ns_,
-                                      .truth = {},
-                                      .found = std::vector<std::optional<ParticlePose>>(count_)});
+  look_ = std::make_unique<Look>(
+      Look{.particle = particle,
+           .square = {.middle_m = place_of(pose_in(state_.shown, particle)), .half_m = kLookReach * reach_m_[particle]},
+           .begun_ns = time_ns_,
+           .truth = {},
+           .found = std::vector<std::optional<ParticlePose>>(count_)});
 }
 
 // The servo's pages may be older or newer than a sample.
@@ -221,11 +237,11 @@ void LivePicture::scan(std::uint64_t digest, std::span<const ParticlePage> truth
 void LivePicture::read_line() {
   Look& look = *look_;
   const glm::dvec2 way_m = drift_m(look.end_of_line(look.done));
-  const double y_m = look.middle_m.y - look.half_m + static_cast<double>(look.done) * look.line_m();
+  const double y_m = look.square.middle_m.y - look.square.half_m + static_cast<double>(look.done) * look.line_m();
   for (std::size_t i = 0; i < count_; ++i) {
     const ParticlePose there = moved(pose_in(look.truth, i), way_m);
-    const bool here =
-        std::abs(there.x_m - look.middle_m.x) <= look.half_m && std::abs(there.y_m - y_m) <= 0.5 * look.line_m();
+    const bool here = std::abs(there.x_m - look.square.middle_m.x) <= look.square.half_m &&
+                      std::abs(there.y_m - y_m) <= 0.5 * look.line_m();
     if (here && !look.found[i]) look.found[i] = there;
   }
   ++look.done;
@@ -235,9 +251,11 @@ void LivePicture::end_look() {
   const std::unique_ptr<const Look> look = std::move(look_);
   if (look->done == 0) return;
   now_.newest = {.particle = look->particle, .lines = look->done, .off_m = std::nullopt};
+  const auto swept = [&](std::size_t i) { return look->load_n > gentle_n_[i]; };
+  if (swept(look->particle)) now_.newest.swept_above_n = gentle_n_[look->particle];
   ++now_.looks;
   for (std::size_t i = 0; i < count_; ++i) {
-    if (!look->found[i]) continue;
+    if (!look->found[i] || swept(i)) continue;
     if (i == look->particle) {
       now_.newest.off_m = glm::distance(place_of(*look->found[i]), place_of(pose_in(state_.shown, i)));
     }
@@ -271,6 +289,12 @@ std::string text_of(const LookResult& look) {
   const std::string lines = look.lines < physics::kLookLines ? fmt::format(" (only {} of {} lines: the tip came down)",
                                                                            look.lines, physics::kLookLines)
                                                              : "";
+  if (look.swept_above_n > 0.0) {
+    return fmt::format(
+        "looked again: the scan pushed particle {} away, because its load is above the gentle one of {}{}",
+        look.particle + 1, physics::format_quantity(physics::Force(look.swept_above_n), physics::kForceUnits, 3),
+        lines);
+  }
   if (!look.off_m) return fmt::format("looked again: particle {} was not found{}", look.particle + 1, lines);
   return fmt::format("looked again: particle {} lies {:.2f} nm from where the picture had it{}", look.particle + 1,
                      1e9 * *look.off_m, lines);

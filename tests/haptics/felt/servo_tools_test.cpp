@@ -3,6 +3,7 @@
 // Invariant: the tool among particles changes only without force, and moves none of them
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 
 #include "pushing_bench.h"
@@ -63,6 +64,41 @@ TEST(ServoTools, ChangesTheToolWithoutForceAndKeepsPlacesAndStrokes) {
   EXPECT_EQ(bench.pose(0), start);
   EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
   EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+}
+
+// A tip beside a particle is off the sample, but not without force.
+TEST(ServoTools, ChangesNothingWhileAParticlePushesTheHand) {
+  for (const bool material : {false, true}) {
+    PushingBench bench;
+    bench.put_down();
+    bench.go(-0.020, 0.0, 0.001, 1.0);
+    ASSERT_NE(bench.state().phase, physics::Phase::Attached);
+    const double pushed_n = bench.sideways_n();
+    ASSERT_GT(pushed_n, 0.1);
+    if (!material) bench.tool = scene::PushTool::Grip;
+    bench.choose(material ? test::kGold : test::kMica, ScaleMode::Particles);
+    const std::size_t before = bench.samples.size();
+    bench.run(0.3);
+    EXPECT_NEAR(bench.sideways_n(), pushed_n, 0.05 * pushed_n);
+    EXPECT_EQ(bench.state().servo_state, scene::ServoState::Running);
+    EXPECT_EQ(bench.state().material, test::kMica);
+    EXPECT_EQ(bench.renderer.tip_push()->tool, scene::PushTool::Push);
+    bench.go(-0.030, 0.0, 0.001, 0.5);
+    bench.run(0.3);
+    EXPECT_EQ(bench.state().acknowledged.selection, bench.selection) << "back from the particle, not lifted";
+    double last_n = pushed_n;
+    for (std::size_t i = before; i < bench.samples.size(); ++i) {
+      const scene::TipSample& now = bench.samples[i];
+      if (now.tool == scene::PushTool::Grip || now.material == test::kGold) {
+        EXPECT_EQ(std::hypot(now.push.lateral_n[0], now.push.lateral_n[1]), 0.0);
+        EXPECT_EQ(last_n, 0.0) << "the force of the tick before";
+        break;
+      }
+      last_n = std::hypot(now.push.lateral_n[0], now.push.lateral_n[1]);
+    }
+    bench.release();
+    EXPECT_EQ(bench.hand_force_n(), 0.0);
+  }
 }
 
 TEST(ServoTools, GripsNoIslandAndNothingAtALevel) {

@@ -15,6 +15,7 @@ struct Tone {
   double level = 0;  // 0: silent, 1: loudest
   double side = 0;   // -1: left ear only, 1: right ear only
   double edge = 0;   // 0: a pure tone, 1: with its octave, which makes a difference even in mono
+  double hiss = 0;   // 1: noise around that frequency in place of the tone
 
   bool operator==(const Tone&) const = default;
 };

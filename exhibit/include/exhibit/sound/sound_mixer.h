@@ -59,6 +59,7 @@ class SoundMixer final : public servo::TipAudience {
     std::int64_t time_ns = 0;
     double force_n = 0;
     scene::Swing swing{};
+    HeardPush push{};
     std::int32_t material = -1;
     bool event = false;  // false: a sample, which has a force
     bool audible = false;

@@ -66,6 +66,12 @@ class Synthesizer {
     double wanted = 0;
     void step() noexcept;
   };
+  // Smooth noise, which moves on by `share` of the way from one random number to the next.
+  struct Noise {
+    double from = 0, to = 0, along = 0;
+    std::uint32_t state = 2463534242;
+    double next(double share) noexcept;
+  };
   struct Frame {
     double left = 0, right = 0;
   };
@@ -82,7 +88,8 @@ class Synthesizer {
   std::array<Point, kPoints> points_{};  // ring buffer
   std::size_t first_point_ = 0, point_count_ = 0;
   double phase_ = 0;  // phase of the tone, in turns
-  Followed level_, side_, edge_, gain_{1.0, 1.0}, tone_gain_{1.0, 1.0};
+  Noise noise_;
+  Followed level_, side_, edge_, hiss_, gain_{1.0, 1.0}, tone_gain_{1.0, 1.0};
   std::array<Voice, kVoices> voices_{};
 };
 

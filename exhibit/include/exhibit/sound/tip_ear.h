@@ -6,6 +6,7 @@
 
 #include "exhibit/sound/heard_event.h"
 #include "exhibit/sound/pitch.h"
+#include "exhibit/sound/push_ear.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
@@ -14,31 +15,36 @@ namespace afm::exhibit {
 struct Heard {
   HeardEvent event = HeardEvent::SnapIn;
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC, interpolated if the servo interpolates
-  double force_n = 0;        // on the tip, positive away from the sample; of a slip or a particle, its size; 0: none
+  double force_n = 0;        // on the tip, positive away from the sample; of a slip or a particle, its size; 0: none;
+                             // negative for a particle astray on the left
   std::int32_t material = -1;
 };
 
 // Converts an event of the servo.
 Heard heard_of(const scene::TipEvent& event);
 
-// Stereo position of a signal: for a jump, that of its force; otherwise the middle.
+// Stereo position of a signal: for a jump, that of its force; for a particle astray its side; otherwise the middle.
 double side_of(const Heard& heard, const Ear& ear);
 
 // Returns whether the force is audible as a tone.
 bool is_audible(const scene::TipSample& sample);
 
-// Derives events from the servo's samples: the force is switched on or off, and the tip touches. Another touch is
-// reported only after the tip was free or pulled. One thread.
+// Derives events from the servo's samples: the force is switched on or off, the tip touches, and a pushed particle goes
+// astray. Another touch is reported only after the tip was free or pulled. One thread.
 class TipEar {
  public:
   // Adds a sample; call in order of time. Returns at most one event.
   std::optional<Heard> add(const scene::TipSample& sample);
+
+  // What is pushed in the newest sample.
+  const HeardPush& push() const { return push_.push(); }
 
  private:
   std::optional<HeardEvent> change_of_force(scene::ServoState state);
   bool touches(const scene::TipSample& sample);
 
   scene::ServoState state_ = scene::ServoState::Disarmed;
+  PushEar push_;
   bool on_ = false;
   bool may_touch_ = false;
   double last_force_n_ = 0;

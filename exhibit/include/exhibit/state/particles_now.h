@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/units.h"
 #include "scene/shared/particle_blocks.h"
 #include "scene/shared/task_score.h"
 
@@ -34,6 +35,7 @@ struct ParticlesNow {
   scene::TaskScore score{};  // only for a set with a pattern
   scene::PlannedPush plan{};
   const servo::PictureNow* picture = nullptr;  // at level 1 and 2
+  double look_load_n = 0;                      // with which the next look scans
   std::span<const scene::MarkTile> tiles{};    // marks of a soft sample
   std::uint64_t marks = 0;                     // other tiles have another number
 };
@@ -50,6 +52,9 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
   const bool known = now.push.met != 0 && now.push.particle >= 0 && static_cast<std::size_t>(now.push.particle) < count;
   return known ? std::optional(static_cast<std::size_t>(now.push.particle)) : std::nullopt;
 }
+
+// Load up to which a look moves no particle of the set.
+physics::Force gentle_look(const scene::ParticleSet& set);
 
 // Places of all particles; empty before the servo has reported them.
 std::optional<std::vector<physics::ParticlePlace>> places_of(const ParticlesNow& now);

@@ -64,7 +64,12 @@
   PHRASE(LookName, "newest-look", "", kLine)                               \
   PHRASE(LookOff, "look-off", "number lines", kLine)                       \
   PHRASE(LookMissed, "look-missed", "", kLine)                             \
+  PHRASE(LookSwept, "look-swept", "", kLine)                               \
+  PHRASE(LookSweptBy, "look-swept-by", "number gentle", kLine)             \
+  PHRASE(LookLoad, "look-load", "", kLine)                                 \
+  PHRASE(LookSweeps, "look-sweeps", "gentle", kLine)                       \
   PHRASE(KeyLook, "key-look", "", kLine)                                   \
+  PHRASE(KeyLookLoad, "key-look-load", "", kLine)                          \
   PHRASE(KeyTool, "key-tool", "", kLine)                                   \
   PHRASE(ToolName, "tool", "", kLine)                                      \
   PHRASE(ToolPush, "tool-push", "", kLine)                                 \
@@ -74,7 +79,8 @@
   PHRASE(ToolOfMarks, "tool-of-marks", "", kLine)                          \
   PHRASE(ToolNeedsAdhesion, "tool-needs-adhesion", "", kLine)              \
   PHRASE(ToolOfPicture, "tool-of-picture", "", kLine)                      \
-  PHRASE(ToolTooMuch, "tool-too-much", "", kLine)
+  PHRASE(ToolTooMuch, "tool-too-much", "", kLine)                          \
+  PHRASE(ToolWaits, "tool-waits", "", kLine)
 
 // A soft sample that the tip scratches; states as those of physics::PushState up to Slides.
 #define AFM_FOR_EACH_SOFT_PHRASE(PHRASE)                 \

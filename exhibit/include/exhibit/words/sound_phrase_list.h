@@ -32,6 +32,9 @@
   PHRASE(HeardHandTooFast, "heard-hand-too-fast", kEventPlaces, kLine)               \
   PHRASE(HeardInkFlows, "heard-ink-flows", kEventPlaces, kLine)                      \
   PHRASE(HeardLiquidTorn, "heard-liquid-torn", kEventPlaces, kLine)                  \
+  PHRASE(HeardParticleSwept, "heard-particle-swept", kEventPlaces, kLine)            \
+  PHRASE(HeardAstrayLeft, "heard-astray-left", kEventPlaces, kLine)                  \
+  PHRASE(HeardAstrayRight, "heard-astray-right", kEventPlaces, kLine)                \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -61,6 +64,9 @@
   PHRASE(SayHandTooFast, "say-hand-too-fast", kEventPlaces, kLine)                   \
   PHRASE(SayInkFlows, "say-ink-flows", kEventPlaces, kLine)                          \
   PHRASE(SayLiquidTorn, "say-liquid-torn", kEventPlaces, kLine)                      \
+  PHRASE(SayParticleSwept, "say-particle-swept", kEventPlaces, kLine)                \
+  PHRASE(SayAstrayLeft, "say-astray-left", kEventPlaces, kLine)                      \
+  PHRASE(SayAstrayRight, "say-astray-right", kEventPlaces, kLine)                    \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

@@ -26,6 +26,10 @@ Stiffness stiffness_sideways(const PushSprings& springs, double sine, double cos
 // climbing it. 0 if mu_t >= tan(theta), where no load is gentle.
 Force gentle_load(const ParticleSpecies& species, const SphereCone& tip, double tip_friction);
 
+// The load up to which a scan climbs a particle and moves none: gentle_load(), for a rod at its end, where it gives
+// most easily. Where friction at the tip leaves no gentle load, that of a tip without friction.
+Force climbing_load(const ParticleSpecies& species, const SphereCone& tip, double tip_friction);
+
 // Feedback off, apex set on the sample without load, no friction at the tip: the smallest k_c with which the tip pushes
 // the sphere before it rides over it, max over h of k_c h cot(phi(h)) - f_s(k_c h) = 0 (M10).
 Stiffness softest_lever(const ParticleSpecies& species, const SphereCone& tip);

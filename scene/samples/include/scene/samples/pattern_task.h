@@ -25,6 +25,7 @@ struct TaskTick {
   std::uint64_t places = 0;           // changes whenever a particle has moved
   bool guided = false;                // a groove guides the hand
   bool carries = false;               // true: a particle hangs on the tip, so that the pattern is not left
+  bool swept = false;                 // a scan pushes the particles, not the hand
 };
 
 // A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done

@@ -182,25 +182,27 @@ enum class ScanHand : std::uint32_t {
   Apart = 0,  // independent
   Led = 1,    // a weak spring leads the hand along the scan's path
   Scans = 2,  // the hand is the scanner
+  Looks = 3,  // independent; a scan looks at particles, pressing so hard that it pushes them
 };
 
 // Scan data for the hand, sent once per frame. The servo uses it while is_valid() is true and it is not older than
 // kScanLeadLastsNs; otherwise it assumes Apart.
 struct ScanLead {
   std::int64_t time_ns = 0;           // CLOCK_MONOTONIC, time of the frame
-  std::array<double, 2> apex_xy_m{};  // Led only: scan's tip in the sample's frame
-  double height_m = 0;                // Led only: height of that tip
+  std::array<double, 2> apex_xy_m{};  // Led: scan's tip, Looks: middle of the square, in the sample's frame
+  double height_m = 0;                // Led: height of that tip; Looks: half a side of the square
   double gain_per_s = 0;            // Scans with feedback only: gain of the integral controller, 0 to kMostScanGainPerS
   ScanHand hand = ScanHand::Apart;  // Apart: the other fields are ignored
   std::uint32_t feedback = 0;       // Scans only, 1: the loop moves the tip up and down
   std::uint32_t revision = 0;       // increases by one with every message
-  std::uint32_t padding = 0;
+  std::uint32_t load_pn = 0;        // Looks only: load of its tip, piconewtons
 
   bool operator==(const ScanLead&) const = default;
 };
 
 inline constexpr std::int64_t kScanLeadLastsNs = 350'000'000;
 inline constexpr double kMostScanGainPerS = 1e6;
+inline constexpr std::uint32_t kMostLookLoadPn = 1'000'000;  // 1 uN
 
 struct RendererHeartbeat {
   std::int64_t time_ns = 0;

@@ -214,7 +214,7 @@ constexpr void for_each_field(Visit&& visit, Record&... lead) {
   visit("scan_hand", lead.hand...);
   visit("scan_feedback", lead.feedback...);
   visit("scan_revision", lead.revision...);
-  visit("padding", lead.padding...);
+  visit("scan_load_pN", lead.load_pn...);
 }
 static_assert(all_fields_described<ScanLead>());
 
