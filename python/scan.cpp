@@ -212,7 +212,8 @@ void add_scan_class(py::module_& module) {
   add("height", &ScanImage::height_m, "Height of the area, m.");
   add("x_offset", &ScanImage::x_offset_m, "Left edge of the area, m.");
   add("y_offset", &ScanImage::y_offset_m, "Top edge of the area, m.");
-  scan.def_property_readonly("channels", &channels_of, "Every channel by its name: read-only arrays, rows by columns.")
+  scan.def_property_readonly("channels", &channels_of,
+                             "Every channel by its name, in SI: read-only arrays, rows by columns.")
       .def_property_readonly(
           "units",
           [](const Scan& self) {
