@@ -79,6 +79,10 @@ class Law(unittest.TestCase):
         np.testing.assert_array_equal(force, self.law.force(np.array(z, dtype=np.float64), branch="attached"))
         self.assertEqual(self.law.force(np.zeros((0, 3))).shape, (0, 3))
 
+    def test_gives_no_force_where_there_is_no_height(self):
+        force = self.law.force([1e-9, np.nan])
+        self.assertEqual((force[0], np.isnan(force[1])), (self.law.force(1e-9), True))
+
     def test_gives_a_float_for_a_float(self):
         self.assertIsInstance(self.law.force(3e-9), float)
 
@@ -126,6 +130,8 @@ class Cycle(unittest.TestCase):
         with self.assertRaises(ValueError) as refused:
             touchafm.cycle(mica, speed=1e-6)
         self.assertEqual(str(refused.exception), error_of("curve", "--material", "mica", "--speed", "1um/s"))
+        with self.assertRaisesRegex(ValueError, "seed: -1 is outside 0 to 18446744073709551615"):
+            touchafm.cycle(mica, "dynamic-dmt", seed=-1)
         for wrong in ({"step": 0.0}, {"step": float("nan")}, {"z_to": 1.0}, {"law": "newton"}, {"z_from": float("inf")}):
             with self.assertRaises(ValueError, msg=wrong):
                 touchafm.cycle(mica, **wrong)
