@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -79,7 +80,7 @@ py::object force_on(const Law& law, const GivenArray& z, const std::string& bran
     refuse(fmt::format("unknown branch \"{}\"; choose free or attached", branch));
   }
   const physics::BranchTable& table = branch == "free" ? law.tables->free : law.tables->attached;
-  return each(z, [&table](double z_m) { return table.force(physics::Length(z_m)).si; });
+  return each(z, [&table](double z_m) { return std::isnan(z_m) ? z_m : table.force(physics::Length(z_m)).si; });
 }
 
 Contact make_contact(const std::optional<std::string>& material, const std::optional<std::string>& probe,
@@ -201,7 +202,8 @@ void add_law_class(py::module_& module) {
   py::class_<Law> law(module, "Law", plain_type(), py::is_final(),
                       "A law of force with its lever: two branches and two jumps. Immutable.");
   law.def("force", &force_on, py::arg("z"), py::kw_only(), py::arg("branch") = "free",
-          "Force on the tip, N, for heights z of the lever's base, m: an array of z's shape, or a float.\n\n"
+          "Force on the tip, N, for heights z of the lever's base, m: an array of z's shape, or a float; NaN for\n"
+          "NaN.\n\n"
           "branch: \"free\" ends at figures.z_jtc, \"attached\" at figures.z_joc; beyond, the end's force.\n"
           "Raises ValueError for another branch. The lock of Python is released meanwhile.");
   law.def_readonly("name", &Law::name, "Name of the law: \"jkr\".");

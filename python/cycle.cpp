@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -42,12 +44,14 @@ struct Sweep {
 
 CurveRun make_cycle(const Contact& contact, const std::optional<std::string>& law, std::optional<double> z_from,
                     std::optional<double> z_to, std::optional<double> step, std::optional<double> speed,
-                    std::optional<std::uint64_t> seed) {
-  const curves::PathOptions path{.from = typed(z_from, "m"),
-                                 .to = typed(z_to, "m"),
-                                 .step = typed(step, "m"),
-                                 .speed = typed(speed, "m/s"),
-                                 .seed = seed ? fmt::format("{}", *seed) : std::string()};
+                    const std::optional<Whole>& seed) {
+  constexpr std::uint64_t kMostSeed = std::numeric_limits<std::uint64_t>::max();
+  const curves::PathOptions path{
+      .from = typed(z_from, "m"),
+      .to = typed(z_to, "m"),
+      .step = typed(step, "m"),
+      .speed = typed(speed, "m/s"),
+      .seed = seed ? fmt::format("{}", whole_within("seed", *seed, 0, kMostSeed)) : std::string()};
   return value_of(long_work(
       [setup = contact.with_law(law), path](const std::stop_token&) { return curves::run_curve(setup, path); }));
 }

@@ -85,6 +85,11 @@ Fit fit(const py::object& given, const std::string& model, const std::optional<s
         fmt::format("{}={:.15g}%", name == "tip-radius" ? "radius" : name, 100.0 * share));
   }
   set_numbers(numbers, options);
+  if (!py::isinstance<AnalysedCurve>(given) && !py::isinstance<Curve>(given)) {
+    const std::string type = py::str(py::type::of(given).attr("__name__"));
+    throw py::type_error(fmt::format("curve: give a Curve or its Analysis, not {}", type));
+  }
+  if (contact_point && !py::isinstance<Curve>(given)) refuse("contact_point: an Analysis has its own; give the Curve");
   const AnalysedCurve curve = py::isinstance<AnalysedCurve>(given) && !contact_point
                                   ? given.cast<AnalysedCurve>()
                                   : analyse(given.cast<Curve>(), contact_point);

@@ -97,15 +97,17 @@ void add_frequency_shifts(py::module_& module) {
         return fmt::format("<touchafm.FrequencyShift {} on {}, {} points>", self.model, self.setup.material.name,
                            self.curve.points.size());
       });
-  module.def("frequency_shift", &make_frequency_shift, py::arg("contact"), py::kw_only(), py::arg("amplitude"),
-             py::arg("resonance") = py::none(), py::arg("contact_gap") = py::none(), py::arg("viscosity") = py::none(),
-             py::arg("law") = py::none(), py::arg("at") = py::none(), py::arg("z_from") = py::none(),
-             py::arg("z_to") = py::none(), py::arg("step") = py::none(),
-             "The frequency shift at constant amplitude, as touchafm curve --mode fm computes it, or its value at the\n"
-             "height `at`, m.\n\n"
-             "amplitude, m, zero-to-peak; resonance, Hz, instead of the contact's; contact_gap, m, instead of the\n"
-             "contact's work of adhesion; viscosity, Pa*s. Raises ValueError as the command refuses its options.\n"
-             "docs/tapping.md has the equations with their sources.");
+  module.def(
+      "frequency_shift", &make_frequency_shift, py::arg("contact"), py::kw_only(), py::arg("amplitude"),
+      py::arg("resonance") = py::none(), py::arg("contact_gap") = py::none(), py::arg("viscosity") = py::none(),
+      py::arg("law") = py::none(), py::arg("at") = py::none(), py::arg("z_from") = py::none(),
+      py::arg("z_to") = py::none(), py::arg("step") = py::none(),
+      "The frequency shift at constant amplitude, as touchafm curve --mode fm computes it, or its value at the\n"
+      "height `at`, m.\n\n"
+      "amplitude, m, zero-to-peak; resonance, Hz, instead of the contact's; contact_gap, m, instead of the\n"
+      "contact's work of adhesion; viscosity, Pa*s; z_from, z_to, step: path of the tip's mean height, m. Raises\n"
+      "ValueError as the command refuses its options.\n"
+      "docs/tapping.md has the equations with their sources.");
 }
 
 }  // namespace afm::python

@@ -110,7 +110,7 @@ void add_levers(py::module_& module) {
             const fits::Interval& interval = self.found.thermal->interval_n_per_m;
             return std::pair(interval.low, interval.high);
           },
-          "95 % interval of the thermal spring constant by the scatter of the spectrum alone, or None.")
+          "95 % interval of the thermal spring constant, N/m, by the scatter of the spectrum alone, or None.")
       .def_property_readonly(
           "sensitivity",
           [](const Lever& self) {

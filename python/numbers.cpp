@@ -32,6 +32,16 @@ std::map<std::string, double, std::less<>> numbers_of(const py::kwargs& given) {
   return numbers;
 }
 
+std::uint64_t whole_within(std::string_view name, const Whole& given, std::uint64_t least, std::uint64_t most) {
+  const auto refused = [&](auto number) {
+    refuse(fmt::format("{}: {} is outside {} to {}", name, number, least, most));
+  };
+  if (const auto* negative = std::get_if<std::int64_t>(&given)) refused(*negative);
+  const std::uint64_t number = std::get<std::uint64_t>(given);
+  if (number < least || number > most) refused(number);
+  return number;
+}
+
 void unknown_keyword(std::string_view function, std::string_view keyword) {
   throw py::type_error(fmt::format("{}() got an unexpected keyword argument '{}'", function, keyword));
 }

@@ -3,16 +3,24 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace afm::python {
 
 // A number in SI as a person would type it, with all digits: "5e-08 m". Empty without one.
 std::string typed(std::optional<double> si, std::string_view unit);
+
+// A whole number as it was given, out of range too, which would otherwise be refused as of another type.
+using Whole = std::variant<std::uint64_t, std::int64_t>;
+
+// ValueError with the name of the argument unless it is within `least` to `most`.
+std::uint64_t whole_within(std::string_view name, const Whole& given, std::uint64_t least, std::uint64_t most);
 
 // "tip_radius" for --tip-radius.
 std::string keyword_of(std::string_view option);

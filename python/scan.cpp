@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -104,10 +105,10 @@ physics::Levelling levelling_of(const std::string& word) {
 std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
                                 const std::optional<std::filesystem::path>& sample, const std::string& sample_channel,
                                 const std::optional<std::string>& level, std::optional<double> size,
-                                std::optional<std::size_t> pixels, std::optional<double> x, std::optional<double> y,
+                                const std::optional<Whole>& pixels, std::optional<double> x, std::optional<double> y,
                                 const std::optional<std::string>& direction, bool feedback,
                                 const std::optional<std::string>& tip, std::optional<double> tip_angle, bool show_truth,
-                                std::optional<std::uint32_t> seed, const std::string& mode, const py::kwargs& given) {
+                                const std::optional<Whole>& seed, const std::string& mode, const py::kwargs& given) {
   ScanRequest request;
   if (contact) request.contact = contact->options();
   request.contact.assets_dir = assets_dir();
@@ -118,11 +119,7 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
   request.size = length(size, "size", imaging::kScanSizesM);
   request.x_centre = length(x, "x", imaging::kScanPlacesM);
   request.y_centre = length(y, "y", imaging::kScanPlacesM);
-  request.pixels = pixels.value_or(request.pixels);
-  if (request.pixels < imaging::kFewestPixels || request.pixels > physics::kMostScanPixels) {
-    refuse(fmt::format("pixels: {} is outside {} to {}", request.pixels, imaging::kFewestPixels,
-                       physics::kMostScanPixels));
-  }
+  if (pixels) request.pixels = whole_within("pixels", *pixels, imaging::kFewestPixels, physics::kMostScanPixels);
   if (direction) request.direction = row_named(imaging::kDirections, *direction, "direction").direction;
   if (!feedback) request.feedback = physics::Feedback::Off;
   if (tip) request.tip.kind = row_named(physics::kTipKinds, *tip, "tip").kind;
@@ -131,7 +128,8 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
         legal(*tip_angle, "tip-angle", {curves::kAngleUnits.sort, curves::kAngleUnits.units, imaging::kTipAnglesRad});
   }
   request.show_truth = show_truth;
-  request.seed = seed.value_or(request.seed);
+  constexpr std::uint32_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+  if (seed) request.seed = static_cast<std::uint32_t>(whole_within("seed", *seed, 0, kMostSeed));
   Numbers numbers = numbers_of(given);
   if (mode == "tapping") {
     set_tapping(numbers, request);
@@ -212,7 +210,8 @@ void add_scan_class(py::module_& module) {
   add("height", &ScanImage::height_m, "Height of the area, m.");
   add("x_offset", &ScanImage::x_offset_m, "Left edge of the area, m.");
   add("y_offset", &ScanImage::y_offset_m, "Top edge of the area, m.");
-  scan.def_property_readonly("channels", &channels_of, "Every channel by its name: read-only arrays, rows by columns.")
+  scan.def_property_readonly("channels", &channels_of,
+                             "Every channel by its name, in SI: read-only arrays, rows by columns.")
       .def_property_readonly(
           "units",
           [](const Scan& self) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -48,17 +49,16 @@ std::vector<curves::GivenNumber> given_numbers(const py::kwargs& given) {
   return numbers;
 }
 
-curves::SyntheticSetup setup_of(const std::optional<std::string>& law, std::optional<std::size_t> points,
-                                std::optional<std::uint32_t> seed, const std::optional<std::string>& base,
+curves::SyntheticSetup setup_of(const std::optional<std::string>& law, const std::optional<Whole>& points,
+                                const std::optional<Whole>& seed, const std::optional<std::string>& base,
                                 const py::kwargs& given) {
   curves::SyntheticSetup setup;
   if (law) setup.shape = row_named(fits::kShapes, *law, "law").shape;
   if (base) setup.base = row_named(fits::kBases, *base, "base").base;
-  setup.seed = seed.value_or(setup.seed);
-  setup.points = points.value_or(setup.points);
-  if (setup.points < curves::kFewestSyntheticPoints || setup.points > curves::kMostSyntheticPoints) {
-    refuse(fmt::format("points: {} is outside {} to {}", setup.points, curves::kFewestSyntheticPoints,
-                       curves::kMostSyntheticPoints));
+  constexpr std::uint32_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
+  if (seed) setup.seed = static_cast<std::uint32_t>(whole_within("seed", *seed, 0, kMostSeed));
+  if (points) {
+    setup.points = whole_within("points", *points, curves::kFewestSyntheticPoints, curves::kMostSyntheticPoints);
   }
   value_of(curves::apply(given_numbers(given), setup));
   return setup;
@@ -72,11 +72,9 @@ py::tuple with_truth(curves::SyntheticFile file) {
   return py::make_tuple(std::move(made), dict_of_text(file.truth));
 }
 
-py::tuple generate(const std::optional<std::string>& law, std::size_t count, std::optional<std::size_t> points,
-                   std::optional<std::uint32_t> seed, const std::optional<std::string>& base, const py::kwargs& given) {
-  if (count == 0 || count > curves::kMostSyntheticPoints) {
-    refuse(fmt::format("count: {} is outside 1 to {}", count, curves::kMostSyntheticPoints));
-  }
+py::tuple generate(const std::optional<std::string>& law, const Whole& given_count, const std::optional<Whole>& points,
+                   const std::optional<Whole>& seed, const std::optional<std::string>& base, const py::kwargs& given) {
+  const std::size_t count = whole_within("count", given_count, 1, curves::kMostSyntheticPoints);
   return with_truth(
       value_of(long_work([setup = setup_of(law, points, seed, base, given), count](const std::stop_token&) {
         return curves::synthetic_curves(setup, count);
@@ -93,8 +91,8 @@ double legal(double si, const char* option, const physics::Units& units, const c
 py::tuple generate_map(const std::optional<std::string>& law,
                        const std::optional<std::pair<std::size_t, std::size_t>>& pixels, std::optional<double> size,
                        const std::optional<std::string>& field, std::optional<double> second_modulus,
-                       std::optional<double> second_work_of_adhesion, std::optional<std::size_t> points,
-                       std::optional<std::uint32_t> seed, const std::optional<std::string>& base,
+                       std::optional<double> second_work_of_adhesion, const std::optional<Whole>& points,
+                       const std::optional<Whole>& seed, const std::optional<std::string>& base,
                        const py::kwargs& given) {
   curves::SyntheticMap map;
   const auto [columns, rows] = pixels.value_or(std::pair(curves::kUsualMapPixels, curves::kUsualMapPixels));
@@ -121,7 +119,7 @@ py::tuple generate_map(const std::optional<std::string>& law,
 
 void add_synthetic(py::module_& module) {
   module.def(
-      "generate", &generate, py::arg("law") = py::none(), py::kw_only(), py::arg("count") = 1,
+      "generate", &generate, py::arg("law") = py::none(), py::kw_only(), py::arg("count") = std::uint64_t{1},
       py::arg("points") = py::none(), py::arg("seed") = py::none(), py::arg("base") = py::none(),
       "Curves as an instrument records them and their truth, as touchafm generate curve makes them: a list of\n"
       "Curve, and the dict of the truth file.\n\n"

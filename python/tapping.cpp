@@ -102,7 +102,8 @@ void add_tapping(py::module_& module) {
       "A tapping curve, as touchafm curve --mode tapping computes it, or the states at the height `at`, m.\n\n"
       "free_amplitude, m, zero-to-peak; resonance, Hz, and quality_factor instead of the contact's; drive, Hz,\n"
       "default: at the resonance; contact_gap, m, instead of the contact's work of adhesion; viscosity, Pa*s;\n"
-      "method: \"averaged\" (Q of at least 100) or \"direct\"; speed, m/s, default: at rest at each height.\n"
+      "method: \"averaged\" (Q of at least 100) or \"direct\"; z_from, z_to, step: path of the unbent lever's tip, m;\n"
+      "speed, m/s, default: at rest at each height.\n"
       "Raises ValueError as the command refuses its options. docs/tapping.md has the equations with their sources.");
 }
 

@@ -114,11 +114,12 @@ core::Result<cluster::ClusterNetwork> master_network(const ClusterOptions& optio
   return network;
 }
 
-core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window) {
+core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window, std::string_view remedy) {
   const bool elsewhere = std::any_of(wall.outputs.begin(), wall.outputs.end(),
                                      [](const scene::Output& output) { return output.node.has_value(); });
   if (!elsewhere || window.size_px || !window.monitor.empty() || window.full_screen) return {};
-  return core::wrong_usage("the wall has outputs on other machines: add --cluster, or --size to show it in one window");
+  return core::wrong_usage(
+      fmt::format("the wall has outputs on other machines: add {}--size to show it in one window", remedy));
 }
 
 core::Result<OpenedMaster> open_master(const ClusterOptions& options, const exhibit::ExhibitFiles& files,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "app/options/command_line.h"
 #include "cluster/network.h"
@@ -44,8 +45,9 @@ void add_domain_option(OptionList& command, std::uint32_t& domain);
 // Network of the machine with the hand. Fails as interface_towards and address_of_host do.
 core::Result<cluster::ClusterNetwork> master_network(const ClusterOptions& options, const scene::Wall& wall);
 
-// WrongUsage if the wall has outputs on other machines, which one window would not show.
-core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window);
+// WrongUsage if the wall has outputs on other machines, which one window would not show. `remedy`: the option that
+// shows them all, "--cluster, or "; empty if there is none.
+core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window, std::string_view remedy);
 
 // Parts of the wall's description that are in no file.
 struct WallChoice {

@@ -101,7 +101,9 @@ struct ShownWall {
 core::Result<std::unique_ptr<ShownWall>> open_wall(const ServeOptions& options, const core::Clock& clock) {
   auto stage = exhibit::load_exhibit(options.files);
   if (!stage) return tl::unexpected(stage.error());
-  if (auto alone = check_one_machine(stage->wall, options.display.window); !alone) return tl::unexpected(alone.error());
+  if (auto alone = check_one_machine(stage->wall, options.display.window, ""); !alone) {
+    return tl::unexpected(alone.error());
+  }
   auto materials = exhibit::felt_samples(*stage, physics::FrictionLaw::None);
   if (!materials) return tl::unexpected(materials.error());
   auto wall = std::make_unique<ShownWall>(ShownWall{std::move(*stage), std::move(*materials), nullptr});

@@ -212,7 +212,9 @@ core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& o
                          {options.friction, options.display.picture, options.display.contrast, options.tapping},
                          program, stage, clock);
   }
-  if (auto alone = check_one_machine(stage.wall, options.display.window); !alone) return tl::unexpected(alone.error());
+  if (auto alone = check_one_machine(stage.wall, options.display.window, "--cluster, or "); !alone) {
+    return tl::unexpected(alone.error());
+  }
   return nullptr;
 }
 

@@ -45,15 +45,20 @@ bool SpectatorWindow::leaves() {
   return leaves;
 }
 
+std::optional<std::size_t> SpectatorWindow::place_of(const std::string& material) const {
+  const auto& known = stage_.materials.materials;
+  const auto found = std::find_if(known.begin(), known.end(),
+                                  [&](const scene::MaterialEntry& entry) { return entry.name == material; });
+  if (found == known.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - known.begin());
+}
+
 // The numbers of the contact now, as the panels show them; false: the wall lacks its material.
 bool SpectatorWindow::follow_contact() {
   if (shown_.setup == followed_ || !shown_.setup) return true;
-  const auto& known = stage_.materials.materials;
-  const auto found = std::find_if(known.begin(), known.end(), [&](const scene::MaterialEntry& entry) {
-    return entry.name == shown_.setup->material.name;
-  });
-  if (found == known.end()) return false;
-  const auto index = static_cast<std::size_t>(found - known.begin());
+  const std::optional<std::size_t> place = place_of(shown_.setup->material.name);
+  if (!place) return false;
+  const std::size_t index = *place;
   if (auto model = curves::make_sample_model(*shown_.setup)) {
     stage_.wall_scene.lay_surface_on(model->parameters, index);
     materials_[index] = std::move(*model);
@@ -64,8 +69,10 @@ bool SpectatorWindow::follow_contact() {
   return true;
 }
 
-void SpectatorWindow::take(double frame_s) {
-  shown_ = showcase_.look();
+// False: the wall lacks the material. A curve begins only after its contact is known.
+bool SpectatorWindow::take(double frame_s) {
+  shown_ = showcase_.look([this](const std::string& material) { return place_of(material).has_value(); });
+  if (!follow_contact()) return false;
   player_.advance(frame_s);
   if (!player_.playing() && shown_.curves != played_) {
     played_ = shown_.curves;
@@ -84,7 +91,9 @@ void SpectatorWindow::take(double frame_s) {
   line_.advance(frame_s);
   take_lines();
   // the newest thing that happened is in front
-  if (player_.playing() && !shown_.image.running && shown_.lines.empty()) image_.reset();
+  const bool newer = played_ > shown_.image.curves;
+  if (player_.playing() && newer && !shown_.image.running && shown_.lines.empty()) image_.reset();
+  return true;
 }
 
 void SpectatorWindow::take_lines() {
@@ -145,8 +154,8 @@ std::optional<std::string> SpectatorWindow::run(const std::function<bool()>& ove
   std::int64_t shown_ns = clock_.now_ns();
   while (!over() && !leaves()) {
     const std::int64_t now_ns = clock_.now_ns();
-    take(static_cast<double>(now_ns - std::exchange(shown_ns, now_ns)) * 1e-9);
-    if (!follow_contact()) return shown_.setup->material.name;
+    const double frame_s = static_cast<double>(now_ns - std::exchange(shown_ns, now_ns)) * 1e-9;
+    if (!take(frame_s)) return shown_.setup->material.name;
     if (display_.windows().hidden()) {
       display_.picture().rest();
     } else {

@@ -44,7 +44,8 @@ class SpectatorWindow {
 
  private:
   bool leaves();
-  void take(double frame_s);
+  std::optional<std::size_t> place_of(const std::string& material) const;  // on the wall
+  bool take(double frame_s);
   void take_lines();
   bool follow_contact();
   void put_tip(exhibit::WallState& wall) const;

@@ -348,6 +348,13 @@ core::Result<std::string> CommandLine::parse(int count, const char* const* argum
     std::ostringstream answer;
     app_->exit(asked, answer);
     return answer.str();
+  } catch (const CLI::ConversionError& wrong) {
+    // "Could not convert: --seed = -1"
+    const std::string text = wrong.what();
+    const std::size_t name = text.find(": "), value = text.find(" = ");
+    if (name == std::string::npos || value == std::string::npos) return core::wrong_usage(text);
+    return core::wrong_usage(fmt::format("{}: cannot read \"{}\" as a number that it takes",
+                                         text.substr(name + 2, value - name - 2), text.substr(value + 3)));
   } catch (const CLI::ParseError& wrong) {
     const int code = wrong.get_exit_code();
     const bool incomplete = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||

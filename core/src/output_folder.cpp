@@ -4,10 +4,12 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -117,6 +119,8 @@ Result<void> OutputFolder::commit_new() {
   for (const fs::directory_entry& entry : fs::directory_iterator(staging_, error)) {
     names.push_back(entry.path().filename().string());
   }
+  // nothing can move two files at once: a longer name, such as FILE.truth.json, comes before FILE
+  std::sort(names.begin(), names.end(), std::greater<>());
   int failed = error.value();
   std::size_t moved = 0;
   while (failed == 0 && moved < names.size()) {

@@ -37,6 +37,7 @@ void Showcase::begin_image(const physics::ScanArea& area, double line_rate_hz, d
                    .height_m = area.height.si,
                    .line_rate_hz = line_rate_hz,
                    .turn_rad = turn_rad,
+                   .curves = newest_.curves,
                    .running = true};
   newest_.lines.clear();
 }
@@ -52,11 +53,11 @@ void Showcase::end_image() {
   newest_.image.running = false;
 }
 
-Shown Showcase::look() {
+Shown Showcase::look(const Shows& shows) {
   const std::lock_guard lock(mutex_);
   std::vector<physics::ScanLine> lines = std::exchange(newest_.lines, {});
   Shown shown(newest_);
-  shown.lines = std::move(lines);
+  (shows && newest_.setup && !shows(newest_.setup->material.name) ? newest_ : shown).lines = std::move(lines);
   return shown;
 }
 

@@ -9,8 +9,9 @@ The numbers are those of touchafm.fit() for each curve alone, and of the maps th
 """
 
 import os
+import typing
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Callable, NamedTuple, Optional, Sequence
+from typing import Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ from . import fit as fit_curve
 __all__ = ["FitMap", "fit"]
 
 
-class FitMap(NamedTuple):
+class FitMap(typing.NamedTuple):
     """What was fitted, at the pixels of the map: row 0 at the top, column 0 at the left; NaN where nothing was found."""
 
     E: NDArray[np.float64]  #: Young's modulus, Pa
@@ -34,7 +35,7 @@ class FitMap(NamedTuple):
     reasons: dict[int, str]  #: why, by the number of the curve
 
 
-class _Found(NamedTuple):
+class _Found(typing.NamedTuple):
     fit: Optional[Fit]
     analysis: Optional[Analysis]
     reason: str
@@ -49,7 +50,7 @@ def _found(curve: Curve, settings: dict[str, Any]) -> _Found:
         return _Found(None, analysis, str(error))
 
 
-def _places(curves: Sequence[Curve]) -> tuple[tuple[int, int], list[tuple[int, int]]]:
+def _places(curves: typing.Sequence[Curve]) -> tuple[tuple[int, int], list[tuple[int, int]]]:
     """Shape of the map, and row and column of each curve."""
     if any(curve.metadata.get("grid") is None for curve in curves):
         raise ValueError("one of the curves has no pixel; touchafm.fit() fits curves that are not a map")
@@ -63,7 +64,7 @@ def _places(curves: Sequence[Curve]) -> tuple[tuple[int, int], list[tuple[int, i
     return (rows, columns), [(rows - 1 - row, column) for column, row in pixels]
 
 
-def fit(curves: Sequence[Curve], *, threads: Optional[int] = None, **settings: Any) -> FitMap:
+def fit(curves: typing.Sequence[Curve], *, threads: Optional[int] = None, **settings: Any) -> FitMap:
     """Fits every curve of a map, on all cores or so many threads. settings: the arguments of touchafm.fit().
 
     A curve that nothing fits is NaN, with its reason; of two curves at one pixel the later counts. ValueError for curves
@@ -72,13 +73,12 @@ def fit(curves: Sequence[Curve], *, threads: Optional[int] = None, **settings: A
     if not curves:
         raise ValueError("there is no curve")
     shape, places = _places(curves)
-    with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
+    pool = ThreadPoolExecutor(threads or os.cpu_count())
+    try:
         work = [pool.submit(_found, curve, settings) for curve in curves]
-        try:
-            found = [each.result() for each in work]
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+        found = [each.result() for each in work]
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)  # Ctrl-C does not wait for the fits that run
 
     def of_fits(value: Callable[[Fit], Optional[float]]) -> NDArray[np.float64]:
         array = np.full(shape, np.nan)

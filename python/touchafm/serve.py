@@ -12,6 +12,7 @@ answer raises TimeoutError or ConnectionError, an OSError. An object belongs to 
 """
 
 import base64
+import contextlib
 import json
 import os
 import pathlib
@@ -20,10 +21,17 @@ import socket
 import subprocess
 import tempfile
 import time
+from types import TracebackType
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 __all__ = ["Client", "Refused", "connect", "start"]
+
+_Floats = NDArray[np.float64]
+_Path = Union[str, "os.PathLike[str]"]
+_OnLine = Callable[[dict[str, Any]], Any]
 
 _CHANNELS = {
     "height_m": "Height",
@@ -40,12 +48,33 @@ class Refused(ValueError):
     """The microscope refused a request; the text is its reason."""
 
 
+class _Lines:
+    """Lines that come from a socket. A wait that is interrupted loses none of their bytes."""
+
+    def __init__(self, source: socket.socket) -> None:
+        self._source, self._bytes = source, bytearray()
+
+    def readline(self) -> bytes:
+        """The next line with its end; empty if the server left before."""
+        searched = 0
+        while (end := self._bytes.find(b"\n", searched)) < 0:
+            searched = len(self._bytes)
+            more = self._source.recv(1 << 18)
+            if not more:
+                return b""
+            self._bytes += more
+        line = bytes(self._bytes[: end + 1])
+        del self._bytes[: end + 1]
+        return line
+
+
 class Client:
     """One connection. Ends by close(), or as a context manager."""
 
-    def __init__(self, path, *, timeout=60.0, server=None, folder=None):
+    def __init__(self, path: _Path, *, timeout: float = 60.0, server: Optional["subprocess.Popen[bytes]"] = None,
+                 folder: Optional[str] = None) -> None:
         self._number = 0
-        self._packs = None  # whether the server can pack arrays; None: not asked yet
+        self._packs: Optional[bool] = None  # whether the server can pack arrays; None: not asked yet
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             self._socket.settimeout(timeout)
@@ -53,18 +82,17 @@ class Client:
         except BaseException:
             self._socket.close()
             raise
-        self._answers = self._socket.makefile("rb")
+        self._answers = _Lines(self._socket)
         self._server, self._folder = server, folder
 
-    def __enter__(self):
+    def __enter__(self) -> "Client":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, kind: Optional[type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]) -> None:
         self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Disconnects; a server that start() started ends."""
-        self._answers.close()
         self._socket.close()
         if self._server is not None:
             self._server.terminate()
@@ -74,7 +102,7 @@ class Client:
             shutil.rmtree(self._folder, ignore_errors=True)
             self._folder = None
 
-    def request(self, do, *, on_line=None, **members):
+    def request(self, do: str, *, on_line: Optional[_OnLine] = None, **members: Any) -> dict[str, Any]:
         """The answer to any request as a dict, whose lists of numbers are arrays: they travel as bytes, which takes less time.
         on_line is called with each line of a scan as it comes; False stops the scan."""
         if self._packs is None and do != "hello":
@@ -82,55 +110,76 @@ class Client:
         if self._packs:
             members.setdefault("arrays", "base64")
         self._number += 1
-        text = json.dumps({"id": self._number, "do": do, **members}, default=_plain)
+        try:
+            text = json.dumps({"id": self._number, "do": do, **members}, default=_plain, allow_nan=False)
+        except ValueError:
+            raise ValueError(f"{do}: one of the numbers is not finite") from None
         self._socket.sendall(text.encode() + b"\n")
         stopping = False
-        while True:
-            line = self._answers.readline()
-            if not line.endswith(b"\n"):
-                raise ConnectionError(f"the server left while it was asked to {do}")
-            answer = json.loads(line, object_hook=_unpacked)
-            if "line" in answer:
+        try:
+            while "line" in (answer := self._answer(do)):
                 if on_line is not None and on_line(answer) is False and not stopping:
                     stopping = True
-                    self._socket.sendall(b'{"do": "stop"}\n')
-                continue
-            if stopping:
-                self._answers.readline()  # that to "stop"
-            if answer.get("ok"):
-                return answer
-            raise Refused(answer.get("error", "the server gave no reason"))
+                    self._stop()
+        except BaseException:
+            if do == "scan" and not stopping:
+                self._stop()
+            raise
+        if answer["ok"]:
+            return answer
+        raise Refused(answer.get("error", "the server gave no reason"))
 
-    def hello(self, seed=None):
+    def _answer(self, do: str) -> dict[str, Any]:
+        """The next line that belongs to the newest request."""
+        while True:
+            try:
+                line = self._answers.readline()
+            except TimeoutError:
+                raise TimeoutError(f"no answer to {do} within {self._socket.gettimeout():g} s: the server works on it, or serves another "
+                                   "client first; give a longer timeout") from None
+            if not line:
+                raise ConnectionError(f"the server left while it was asked to {do}")
+            answer: dict[str, Any] = json.loads(line, object_hook=_unpacked)
+            if answer.get("id") == self._number or (answer.get("id") is None and not answer.get("ok", True)):
+                return answer  # others are of a request whose wait was interrupted, or to "stop"
+
+    def _stop(self) -> None:
+        with contextlib.suppress(OSError):
+            self._socket.sendall(b'{"do": "stop"}\n')
+
+    def hello(self, seed: Optional[int] = None) -> dict[str, Any]:
         """Name, version and verbs of the server; with a seed, the microscope starts anew."""
         return self.request("hello", seed=seed)
 
-    def get(self):
-        """Every setting by its name."""
-        return self.request("get")["values"]
+    def get(self) -> dict[str, Any]:
+        """Every setting by its name, which has the unit."""
+        values: dict[str, Any] = self.request("get")["values"]
+        return values
 
-    def set(self, **values):
-        """Changes settings, all or none."""
+    def set(self, **values: Any) -> None:
+        """Changes settings, all or none, by the names of get()."""
         self.request("set", values=values)
 
-    def approach(self, speed=None):
-        """Lowers the tip until the setpoint is reached, or seems to be."""
+    def approach(self, speed: Optional[float] = None) -> dict[str, Any]:
+        """Lowers the tip at this speed, m/s, until the setpoint is reached, or seems to be: "z_m" and "engaged"."""
         return self.request("approach", speed_m_per_s=speed)
 
-    def withdraw(self, distance=None, speed=None):
-        """Lifts the tip."""
+    def withdraw(self, distance: Optional[float] = None, speed: Optional[float] = None) -> dict[str, Any]:
+        """Lifts the tip by a distance, m, at a speed, m/s: "z_m" and "engaged"."""
         return self.request("withdraw", distance_m=distance, speed_m_per_s=speed)
 
-    def move(self, x, y, speed=None):
-        """Goes to another place of the sample."""
+    def move(self, x: float, y: float, speed: Optional[float] = None) -> dict[str, Any]:
+        """Goes to another place of the sample, m, at a speed, m/s."""
         return self.request("move", x_m=x, y_m=y, speed_m_per_s=speed)
 
-    def wait(self, seconds):
-        """Lets simulated time pass."""
+    def wait(self, seconds: float) -> dict[str, Any]:
+        """Lets simulated time pass, s."""
         return self.request("wait", time_s=seconds)
 
-    def curve(self, *, z_from=None, z_to=None, points=None, speed=None):
-        """A force curve where the tip is: "z", "force" and "approach" as arrays, "spring_constant" in N/m."""
+    def curve(self, *, z_from: Optional[float] = None, z_to: Optional[float] = None, points: Optional[int] = None,
+              speed: Optional[float] = None) -> dict[str, Any]:
+        """A force curve where the tip is, from z_from down to z_to, m, and back at a speed, m/s, with so many points each way:
+        "z" in m, "force" in N and "approach" as arrays, "spring_constant" in N/m."""
         answer = self.request("curve", z_from_m=z_from, z_to_m=z_to, points=points, speed_m_per_s=speed)
         z = np.array(answer["z_m"])
         return {
@@ -140,8 +189,10 @@ class Client:
             "spring_constant": answer["spring_constant_N_per_m"],
         }
 
-    def tapping_curve(self, *, z_from=None, z_to=None, points=None):
-        """Amplitude and phase over the height: "z", "amplitude", "phase" in rad, "approach", and the command's "figures"."""
+    def tapping_curve(self, *, z_from: Optional[float] = None, z_to: Optional[float] = None,
+                      points: Optional[int] = None) -> dict[str, Any]:
+        """Amplitude and phase from z_from down to z_to, m, and back: "z" and "amplitude" in m, "phase" in rad, "approach", and the
+        command's "figures"."""
         answer = self.request("tapping_curve", z_from_m=z_from, z_to_m=z_to, points=points)
         z = np.array(answer["z_m"])
         return {
@@ -152,14 +203,14 @@ class Client:
             "figures": answer["figures"],
         }
 
-    def scan(self, on_line=None):
-        """An image around the tip: a dict of its channels, row 0 on top, "Height" to "Lateral force (retrace)", in
+    def scan(self, on_line: Optional[_OnLine] = None) -> dict[str, _Floats]:
+        """An image around the tip: a dict of its channels in SI, row 0 on top, "Height" to "Lateral force (retrace)", in
         tapping mode to "Peak force (retrace)".
 
         on_line is called with each line as it comes; if it returns False the scan ends, and what was not scanned is NaN."""
-        rows = []
+        rows: list[dict[str, Any]] = []
 
-        def take(line):
+        def take(line: dict[str, Any]) -> Any:
             rows.append(line)
             return on_line is None or on_line(line)
 
@@ -173,44 +224,50 @@ class Client:
                 image[name + ending] = channel
         return image
 
-    def thermal(self, *, points=None, most_Hz=None, averages=None):
+    def thermal(self, *, points: Optional[int] = None, most_Hz: Optional[float] = None,
+                averages: Optional[int] = None) -> tuple[_Floats, _Floats]:
         """Spectrum of the free lever: frequencies in Hz, densities in m^2/Hz."""
         answer = self.request("thermal", points=points, most_Hz=most_Hz, averages=averages)
         return np.array(answer["frequency_Hz"]), np.array(answer["density_m2_per_Hz"])
 
-    def truth(self):
-        """What no microscope shows."""
+    def truth(self) -> dict[str, Any]:
+        """What no microscope shows, by names that have the unit."""
         return self.request("truth")
 
-    def save(self, file):
+    def save(self, file: str) -> dict[str, Any]:
         """Writes the newest image (.gwy, .gsf) or curve (.h5, .tab) into the server's folder."""
         return self.request("save", file=file)
 
-    def quit(self):
+    def quit(self) -> None:
         """Ends the server."""
         self.request("quit")
         self.close()
 
 
-def _unpacked(members):
+def _unpacked(members: dict[str, Any]) -> Any:
     if len(members) == 1 and "base64" in members:
         return np.frombuffer(base64.b64decode(members["base64"]), "<f8")
     return members
 
 
-def _plain(value):
+def _plain(value: object) -> object:
     if isinstance(value, np.generic):
         return value.item()
     raise TypeError(f"a request cannot hold {type(value).__name__}")
 
 
-def connect(path, *, timeout=60.0):
-    """A client of a running server. timeout: longest wait for an answer, s."""
-    return Client(path, timeout=timeout)
+def connect(path: _Path, *, timeout: float = 60.0) -> Client:
+    """A client of a running server. timeout: longest wait for an answer, s. OSError if nobody listens there."""
+    try:
+        return Client(path, timeout=timeout)
+    except OSError as error:
+        why = f"cannot connect to {os.fspath(path)}: {error.strerror or error}; start touchafm serve --socket PATH, or use start()"
+        raise (OSError(why) if error.errno is None else type(error)(error.errno, why)) from None
 
 
-def start(*, seed=1, sample=None, out=None, timeout=60.0):
-    """Starts a server of its own, which nobody else can enter, and connects to it. sample, out: as the command's options."""
+def start(*, seed: int = 1, sample: Optional[_Path] = None, out: Optional[_Path] = None, timeout: float = 60.0) -> Client:
+    """Starts a server of its own, which nobody else can enter, and connects to it. sample, out: as the command's options;
+    timeout: longest wait for an answer, s. Refused if the command refuses them."""
     program = pathlib.Path(__file__).parents[4] / "bin" / "touchafm"
     folder = tempfile.mkdtemp(prefix="touchafm-")
     path, messages = os.path.join(folder, "socket"), os.path.join(folder, "messages")
@@ -220,20 +277,24 @@ def start(*, seed=1, sample=None, out=None, timeout=60.0):
             command += [option, os.fspath(value)]
     try:
         with open(messages, "w") as file:
-            server = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file)
+            # in a session of its own: Ctrl-C is for the script
+            server = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=file, start_new_session=True)
     except OSError:
         shutil.rmtree(folder, ignore_errors=True)
         raise
     end = time.monotonic() + timeout
-    while True:
-        try:
-            return Client(path, timeout=timeout, server=server, folder=folder)
-        except (FileNotFoundError, ConnectionRefusedError):
-            if server.poll() is None and time.monotonic() < end:
+    try:
+        while server.poll() is None and time.monotonic() < end:
+            try:
+                return Client(path, timeout=timeout, server=server, folder=folder)
+            except (FileNotFoundError, ConnectionRefusedError):
                 time.sleep(0.005)
-                continue
         server.kill()
         server.wait()
         why = pathlib.Path(messages).read_text().strip() or "it did not listen in time"
-        shutil.rmtree(folder, ignore_errors=True)
         raise Refused(f"touchafm serve did not start: {why}")
+    except BaseException:
+        server.kill()
+        server.wait()
+        shutil.rmtree(folder, ignore_errors=True)
+        raise

@@ -84,6 +84,24 @@ TEST(OutputFolder, OfNewFilesShowsAll) {
   EXPECT_EQ(entries(scratch.path()), 2U);
 }
 
+// A run that is killed between two moves has shown the truth of a file, and not yet the file.
+TEST(OutputFolder, OfNewFilesMovesTheLongestNameFirst) {
+  const support::ScratchFolder scratch;
+  for (const char* name : {"a.h5", "a.h5.truth.json", "a.h5.truth.gwy"}) scratch.write(name, "old");
+  auto out = OutputFolder::open(scratch.path());
+  ASSERT_TRUE(out.has_value());
+  for (const char* name : {"a.h5", "a.h5.truth.gwy", "a.h5.truth.json"}) {
+    ASSERT_TRUE(out->write(name, "new").has_value());
+  }
+  for (const char* first : {"a.h5.truth.json", "a.h5.truth.gwy", "a.h5"}) {
+    const auto committed = out->commit_new();
+    ASSERT_FALSE(committed.has_value()) << first;
+    EXPECT_THAT(committed.error().message, testing::HasSubstr(std::string(first) + ": it exists already"));
+    fs::remove(scratch.file(first));
+  }
+  EXPECT_TRUE(out->commit_new());
+}
+
 TEST(OutputFolder, ClearsWhatAKilledRunHasLeft) {
   const support::ScratchFolder scratch;
   fs::create_directory(scratch.file(".unfinished-a1b2c3"));

@@ -64,6 +64,7 @@ TEST(Showcase, HasTheNewestOfEverything) {
   EXPECT_EQ(then.image.number, 1U);
   EXPECT_EQ(then.lines.size(), 16U);
   EXPECT_FALSE(then.image.running);
+  EXPECT_EQ(then.image.curves, 1U) << "taken before it";
   EXPECT_TRUE(showcase.look().lines.empty()) << "they have been taken out";
 }
 
@@ -92,6 +93,18 @@ TEST(Showcase, ShowsNoAmplitudeAsAForce) {
     EXPECT_EQ(line.trace.error_n, std::vector<double>(16, 0.0));
     EXPECT_EQ(line.retrace.error_n, std::vector<double>(16, 0.0));
   }
+}
+
+// A window that lacks the material opens again, and then has the lines that were taken meanwhile.
+TEST(Showcase, KeepsTheLinesOfAMaterialThatIsNotShown) {
+  SimulatedInstrument instrument = noisy();
+  Showcase showcase;
+  instrument.show_in(showcase);
+  results_of(instrument);
+  const Shown other = showcase.look([](const std::string& material) { return material != "mica"; });
+  EXPECT_TRUE(other.lines.empty());
+  EXPECT_EQ(other.setup->material.name, "mica");
+  EXPECT_EQ(showcase.look([](const std::string&) { return true; }).lines.size(), 16U);
 }
 
 TEST(Showcase, KeepsTheLinesOfOneImageThoughNobodyLooks) {

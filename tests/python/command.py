@@ -28,3 +28,17 @@ def error_of(*arguments):
 def without_sources(result):
     """Without the texts that say who gave a number."""
     return {key: value for key, value in result.items() if key != "sources"}
+
+
+_GIVERS = ("given by a program", "on the command line")
+
+
+def whoever_gave_it(result):
+    """With one text for every number that a program or a person gave, whose words differ."""
+    if isinstance(result, dict):
+        if str(result.get("source", "")).endswith(_GIVERS):
+            return "given"
+        return {key: whoever_gave_it(value) for key, value in result.items()}
+    if isinstance(result, list):
+        return [whoever_gave_it(each) for each in result]
+    return "given" if isinstance(result, str) and result.endswith(_GIVERS) else result

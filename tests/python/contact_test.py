@@ -2,6 +2,7 @@
 """Contacts, laws, cycles, sweeps and tapping: the numbers, refusals and JSON of the command."""
 
 import pickle
+import statistics
 import subprocess
 import sys
 import unittest
@@ -78,6 +79,10 @@ class Law(unittest.TestCase):
         np.testing.assert_array_equal(force, self.law.force(np.array(z, dtype=np.float64), branch="attached"))
         self.assertEqual(self.law.force(np.zeros((0, 3))).shape, (0, 3))
 
+    def test_gives_no_force_where_there_is_no_height(self):
+        force = self.law.force([1e-9, np.nan])
+        self.assertEqual((force[0], np.isnan(force[1])), (self.law.force(1e-9), True))
+
     def test_gives_a_float_for_a_float(self):
         self.assertIsInstance(self.law.force(3e-9), float)
 
@@ -125,6 +130,8 @@ class Cycle(unittest.TestCase):
         with self.assertRaises(ValueError) as refused:
             touchafm.cycle(mica, speed=1e-6)
         self.assertEqual(str(refused.exception), error_of("curve", "--material", "mica", "--speed", "1um/s"))
+        with self.assertRaisesRegex(ValueError, "seed: -1 is outside 0 to 18446744073709551615"):
+            touchafm.cycle(mica, "dynamic-dmt", seed=-1)
         for wrong in ({"step": 0.0}, {"step": float("nan")}, {"z_to": 1.0}, {"law": "newton"}, {"z_from": float("inf")}):
             with self.assertRaises(ValueError, msg=wrong):
                 touchafm.cycle(mica, **wrong)
@@ -162,20 +169,36 @@ class Paper(unittest.TestCase):
 
 
 OPEN = """
-import os
-def sockets():
+import os, time
+def opened():
     links = (os.path.join("/proc/self/fd", fd) for fd in os.listdir("/proc/self/fd"))
-    return sorted(os.readlink(link) for link in links if os.path.islink(link) and os.readlink(link).startswith("socket:"))
-before = sockets()
-import touchafm, touchafm.maps, touchafm.serve, touchafm.compat.dtmicroscope
-assert sockets() == before, sockets()
-assert "DISPLAY" not in os.environ
+    return sorted(os.readlink(link) for link in links if os.path.islink(link) and not os.readlink(link).startswith("/proc/"))
+import numpy, numpy.typing, concurrent.futures, json, socket, subprocess, tempfile
+before, threads, begin = opened(), os.listdir("/proc/self/task"), time.perf_counter()
+import touchafm
+end = time.perf_counter()
+import touchafm.maps, touchafm.serve, touchafm.compat.dtmicroscope
+assert opened() == before, (before, opened())
+assert os.listdir("/proc/self/task") == threads
+assert "DISPLAY" not in os.environ and "WAYLAND_DISPLAY" not in os.environ
+print(end - begin)
 """
+NUMPY = "import time; begin = time.perf_counter(); import numpy; print(time.perf_counter() - begin)"
+
+
+def printed_s(script):
+    """Median of five runs of a script that prints a time."""
+    times = [float(subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True).stdout) for _ in range(5)]
+    return statistics.median(times)
 
 
 class Import(unittest.TestCase):
-    def test_opens_no_socket(self):
-        subprocess.run([sys.executable, "-c", OPEN], check=True)
+    def test_opens_no_file_socket_or_window_and_starts_no_thread(self):
+        subprocess.run([sys.executable, "-c", OPEN], check=True, stdout=subprocess.DEVNULL)
+
+    def test_is_compared_with_that_of_numpy(self):
+        mine, numpys = printed_s(OPEN), printed_s(NUMPY)
+        print(f"import touchafm: {1e3 * mine:.0f} ms beside numpy's {1e3 * numpys:.0f} ms, {mine / numpys:.2f} times (bar: 150 ms)")
 
     def test_loads_no_window_system(self):
         with open("/proc/self/maps", encoding="utf-8") as maps:

@@ -102,7 +102,7 @@ class Curves(Files):
         read = touchafm.read(self.made("gel.h5", "--seed", "7", "--points", "100"))
         np.testing.assert_allclose(made[0].force, read[0].force, rtol=1e-12)
         self.assertEqual(truth["parameters"]["modulus_Pa"], 3e3)
-        for wrong in ({"points": 1}, {"count": 0}, {"base": "sliding"}, {"half_angle": 0.3}, {"noise": -1.0}):
+        for wrong in ({"points": 1}, {"points": -1}, {"count": 0}, {"count": -1}, {"seed": -1}, {"seed": 2**32}, {"base": "sliding"}, {"half_angle": 0.3}, {"noise": -1.0}):
             with self.assertRaises(ValueError, msg=wrong):
                 touchafm.generate(**{**GEL, **wrong})
 
@@ -185,6 +185,10 @@ class Fits(Files):
                 touchafm.fit(curve, model="sphere", **wrong)
         with self.assertRaises(ValueError):
             touchafm.fit(curve, model="cube")
+        with self.assertRaisesRegex(TypeError, "curve: give a Curve or its Analysis, not str"):
+            touchafm.fit("gel.h5", model="sphere", tip_radius=5e-6)
+        with self.assertRaisesRegex(ValueError, "contact_point: an Analysis has its own"):
+            touchafm.fit(touchafm.analyse(curve), model="sphere", tip_radius=5e-6, contact_point="fit-polynomial")
         with self.assertRaises(TypeError):
             touchafm.fit(curve, model="sphere", radius=5e-6)
         flat = touchafm.Curve(z=np.linspace(1e-6, 0, 100), force=np.zeros(100), approach=np.ones(100))

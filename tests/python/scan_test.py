@@ -92,7 +92,7 @@ class Scan(unittest.TestCase):
             if not given:
                 self.assertEqual(str(refused.exception), error_of("scan", "--json"))
             self.assertIn(typed[0][:6] if typed else "--material", str(refused.exception))
-        for given in ({"tip": "needle"}, {"direction": "left"}, {"pixels": 1}, {"level": "plane"}, {"tip_angle": 2.0}):
+        for given in ({"tip": "needle"}, {"direction": "left"}, {"pixels": 1}, {"pixels": -1}, {"seed": -1}, {"seed": 2**32}, {"level": "plane"}, {"tip_angle": 2.0}):
             with self.assertRaises(ValueError):
                 touchafm.scan(MICA, **given)
         with self.assertRaises(TypeError):

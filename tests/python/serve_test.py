@@ -4,6 +4,7 @@
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
@@ -12,6 +13,19 @@ import numpy as np
 
 import touchafm
 from touchafm import serve
+
+
+INTERRUPTED = """
+import os, signal
+from touchafm import serve
+with serve.start() as afm:
+    afm.set(lines=1000)
+    afm.approach()
+    try:
+        afm.scan(on_line=lambda line: os.killpg(0, signal.SIGINT) if line["line"] == 3 else None)
+    except KeyboardInterrupt:
+        print(afm.get()["lines"])
+"""
 
 
 class Serve(unittest.TestCase):
@@ -64,6 +78,23 @@ class Serve(unittest.TestCase):
         self.assertTrue(np.isnan(image["Height"][len(rows):]).all())
         self.assertEqual(self.afm.get()["lines"], 1000)  # the next answer is that of the next request
 
+    def test_answers_the_next_request_after_one_whose_wait_was_interrupted(self):
+        self.afm.set(pixels=64, lines=1000)
+        self.afm.approach()
+
+        def interrupt(line):
+            if line["line"] == 3:
+                raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            self.afm.scan(on_line=interrupt)
+        self.assertEqual(self.afm.get()["lines"], 1000)
+        self.assertEqual(self.afm.curve(points=7)["z"].shape, (17,))  # and two of a jump, on one branch or both
+
+    def test_outlives_ctrl_c_of_its_script(self):
+        done = subprocess.run([sys.executable, "-c", INTERRUPTED], start_new_session=True, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (0, "1000\n"), done.stderr)
+
     def test_calibrates_the_lever(self):
         frequency, density = self.afm.thermal(averages=200)
         lever = touchafm.lever(thermal=(frequency, density), averages=200, temperature=self.afm.get()["temperature_K"])
@@ -84,6 +115,9 @@ class Serve(unittest.TestCase):
             self.afm.scan()
         with self.assertRaisesRegex(ValueError, "no setting \"colour\""):
             self.afm.set(colour=3)
+        with self.assertRaisesRegex(ValueError, "set: one of the numbers is not finite"):
+            self.afm.set(setpoint_N=float("nan"))
+        self.assertEqual(self.afm.get()["material"], "mica")
 
     def test_times_its_curves(self):  # case S06
         begin = time.monotonic()
@@ -103,8 +137,18 @@ class Serve(unittest.TestCase):
 
     def test_says_that_a_server_has_left(self):
         self.afm.quit()
-        with self.assertRaises(OSError):
-            serve.connect(os.path.join(self.folder.name, "none"))
+        none = os.path.join(self.folder.name, "none")
+        with self.assertRaisesRegex(FileNotFoundError, f"cannot connect to {none}: No such file.*touchafm serve --socket"):
+            serve.connect(none)
+        with self.assertRaisesRegex(OSError, "cannot connect to n{200}: .*too long"):
+            serve.connect("n" * 200)
+
+    def test_waits_for_the_client_before(self):
+        path = os.path.join(self.afm._folder, "socket")
+        with serve.connect(path, timeout=0.5) as second:
+            with self.assertRaisesRegex(TimeoutError, "no answer to hello within 0.5 s: .*another client"):
+                second.get()
+        self.assertEqual(self.afm.get()["material"], "mica")
 
     def test_says_why_a_server_does_not_start(self):
         with self.assertRaisesRegex(serve.Refused, "no such folder"):

@@ -2,12 +2,20 @@
 """The type stub names what the module has, and no more; everything has a docstring."""
 
 import ast
+import inspect
 import os
 import pathlib
 import re
 import unittest
 
 import touchafm
+import touchafm.maps
+import touchafm.serve
+from touchafm.compat import dtmicroscope
+
+# A unit, or the word for a number that has none.
+UNIT = re.compile(r"(?<![\w/])(SI|m|N|J|Pa|Hz|s|K|V|rad|N/m|J/m2|m/V|m/s|1/s|degrees|lines per second)(?![\w/])|parameter|factor|[Qq]uality")
+ERROR = re.compile(r"ValueError|FileError|OSError|Refused")
 
 
 def public(names):
@@ -58,6 +66,50 @@ class Stub(unittest.TestCase):
             self.assertTrue(member.__doc__, name)
             for each in public(vars(member)) if isinstance(member, type) and name != "FileError" else ():
                 self.assertTrue(getattr(member, each).__doc__, (name, each))
+
+    def described(self):
+        """Every callable of the stub: its name, its arguments and their types, its docstring without the signature."""
+        nodes = [(name, node, getattr(touchafm, name)) for name, node in self.functions.items()]
+        for name, node in self.classes.items():
+            for each in (each for each in node.body if isinstance(each, ast.FunctionDef)):
+                made = each.name == "__init__" and getattr(each.returns, "id", "") != "NoReturn"
+                if made or (public([each.name]) and not any(getattr(of, "id", "") == "property" for of in each.decorator_list)):
+                    nodes.append((f"{name}.{each.name}", each, getattr(getattr(touchafm, name), each.name)))
+        for name, node, member in nodes:
+            types = {each.arg: ast.unparse(each.annotation) for each in [*node.args.args, *node.args.kwonlyargs] if each.annotation}
+            yield name, types, "\n".join(member.__doc__.splitlines()[1:])
+
+    def test_gives_the_unit_of_every_number(self):
+        for name, node in self.classes.items():
+            for each in (each for each in node.body if isinstance(each, ast.FunctionDef)):
+                kept = any(getattr(of, "id", "") == "property" for of in each.decorator_list)
+                if kept and re.search("float|_Floats", ast.unparse(each.returns)):
+                    self.assertRegex(getattr(getattr(touchafm, name), each.name).__doc__, UNIT, (name, each.name))
+        for name, types, text in self.described():
+            for argument in (argument for argument, of in types.items() if "float" in of):
+                self.assertIn(argument, text, (name, argument))
+                self.assertRegex(text, UNIT, name)
+
+    def test_gives_the_errors_of_every_function(self):
+        cannot_fail = {"materials", "probes", "paper_tables", "Contact.material"}
+        for name, _, text in self.described():
+            if name not in cannot_fail and not name.endswith(".as_dict"):
+                self.assertRegex(text, ERROR, name)
+
+    def test_describes_the_modules_that_are_python(self):
+        for module in (touchafm.serve, touchafm.maps, dtmicroscope):
+            self.assertRegex(module.__doc__, "SI|in m|Pa", module.__name__)
+            for name in module.__all__:
+                member = getattr(module, name)
+                self.assertTrue(member.__doc__, name)
+                functions = {name: member} if inspect.isfunction(member) else {
+                    f"{name}.{each}": getattr(member, each) for each in public(vars(member)) if inspect.isfunction(getattr(member, each))}
+                for each, function in functions.items():
+                    self.assertTrue(function.__doc__, each)
+                    types = {key: str(of.annotation) for key, of in inspect.signature(function).parameters.items() if key != "self"}
+                    self.assertNotIn(str(inspect.Parameter.empty), types.values(), each)
+                    if any("float" in of for of in types.values()):
+                        self.assertRegex(function.__doc__, UNIT, each)
 
     def test_names_the_sources_of_what_is_computed(self):
         documents = pathlib.Path(os.environ["EXAMPLES"]).parent

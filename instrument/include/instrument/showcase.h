@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include "curves/contact_setup.h"
@@ -26,7 +28,8 @@ struct Shown {
     std::uint64_t number = 0;  // zero: there is none
     std::size_t columns = 0, rows = 0;
     double width_m = 0, height_m = 0, line_rate_hz = 0;
-    double turn_rad = 0;  // from the sample's x to the image's
+    double turn_rad = 0;       // from the sample's x to the image's
+    std::uint64_t curves = 0;  // number before it
     bool running = false;
   };
   Image image;
@@ -46,8 +49,9 @@ class Showcase {
   void put_line(const physics::ScanLine& line);
   void end_image();
 
-  // By the window's thread: everything so far. Takes the lines out.
-  Shown look();
+  // By the window's thread: everything so far. Takes the lines out if `shows` accepts the material; it must be short.
+  using Shows = std::function<bool(const std::string& material)>;
+  Shown look(const Shows& shows = {});
 
  private:
   std::mutex mutex_;

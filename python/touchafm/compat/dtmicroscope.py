@@ -14,9 +14,10 @@ a tip and a feedback: lengths are in m, the channels are those of touchafm.scan(
 https://github.com/pycroscopy/DTMicroscope
 """
 
+import os
+import typing
 import warnings
-from os import PathLike
-from typing import Any, Iterator, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Literal, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -27,9 +28,7 @@ __all__ = ["AFM_Microscope"]
 
 _Floats = NDArray[np.float64]
 _Channels = Optional[list[str]]
-_Modification = Optional[list[Mapping[str, Any]]]
-_Trace = Literal["forward", "backward"]
-_Direction = Literal["horizontal", "vertical"]
+_Modification = Optional[list[typing.Mapping[str, Any]]]
 
 _RETRACE = " (retrace)"
 _EFFECTS = {  # the arguments of touchafm.scan() and Contact.material() that each may have
@@ -43,7 +42,7 @@ class AFM_Microscope:
     """A microscope over one sample. data_path: a sample of one's own, as touchafm.scan(sample=); scan: further arguments of
     touchafm.scan(), such as size and pixels. x and y: place of the tip, m."""
 
-    def __init__(self, data_path: Optional[Union[str, PathLike[str]]] = None, **scan: Any) -> None:
+    def __init__(self, data_path: Optional[Union[str, os.PathLike[str]]] = None, **scan: Any) -> None:
         self.name, self.instrument_vendor, self.instrument_type = "AFM Microscope", "TouchAFM", "AFM"
         self.data_source: Optional[str] = None
         self.scan_rate: float = scan.pop("rate", 0.5)  #: lines per second
@@ -72,8 +71,10 @@ class AFM_Microscope:
                 ("scans", list(range(len(self._channels)))), ("spectra", [len(self._channels)]), ("point_clouds", [])]
 
     def get_scan(self, channels: _Channels = None, modification: _Modification = None, scan_rate: Optional[float] = None,
-                 trace: _Trace = "forward", direction: _Direction = "horizontal") -> _Floats:
-        """An image: channels by rows by columns. trace "backward": of the way back. The fast axis is x: ValueError for the other."""
+                 trace: Literal["forward", "backward"] = "forward",
+                 direction: Literal["horizontal", "vertical"] = "horizontal") -> _Floats:
+        """An image at scan_rate, lines per second: channels by rows by columns. trace "backward": of the way back. The fast axis is
+        x: ValueError for the other."""
         if direction != "horizontal":
             raise ValueError("direction: the lines of an image run along x, \"horizontal\"")
         if channels is not None and not isinstance(channels, list):
@@ -87,31 +88,34 @@ class AFM_Microscope:
         image = self._image(modification, scan_rate)
         return np.stack([image[name + (_RETRACE if trace == "backward" else "")] for name in names])
 
-    def scanning_emulator(self, direction: _Direction = "horizontal", channels: _Channels = None,
-                          scan_rate: Optional[float] = None, modification: _Modification = None) -> Iterator[_Floats]:
-        """The lines of an image one after the other, channels by pixels, rows from the top or columns from the left."""
+    def scanning_emulator(self, direction: Literal["horizontal", "vertical"] = "horizontal", channels: _Channels = None,
+                          scan_rate: Optional[float] = None, modification: _Modification = None) -> typing.Iterator[_Floats]:
+        """The lines of an image at scan_rate, lines per second, one after the other: channels by pixels, rows from the top or
+        columns from the left."""
         image = self.get_scan(channels, modification, scan_rate)
         yield from np.moveaxis(image, self._axis(direction), 0)
 
     def go_to(self, x: float, y: float) -> bool:
-        """Moves the tip; a place outside the image becomes the nearest inside, with a warning."""
+        """Moves the tip to a place, m; one outside the image becomes the nearest inside, with a warning."""
         inside = float(np.clip(x, self.x_min, self.x_max)), float(np.clip(y, self.y_min, self.y_max))
         if inside != (x, y):
             warnings.warn(f"{x} m, {y} m is outside the image; the tip is at {inside[0]} m, {inside[1]} m", stacklevel=2)
         self.x, self.y = inside
         return True
 
-    def scan_individual_line(self, direction: _Direction = "horizontal", trace: _Trace = "forward", coord: float = 0.0,
+    def scan_individual_line(self, direction: Literal["horizontal", "vertical"] = "horizontal",
+                             trace: Literal["forward", "backward"] = "forward", coord: float = 0.0,
                              channels: _Channels = None, modification: _Modification = None) -> _Floats:
-        """The line of an image nearest to y = coord, or x = coord of a vertical one: channels by pixels."""
+        """The line of an image nearest to y = coord, m, or x = coord of a vertical one: channels by pixels."""
         axis = self._axis(direction)
         image = self.get_scan(channels, modification, trace=trace)
         places = self.y_coords if axis == 1 else self.x_coords
-        return np.take(image, int(np.argmin(np.abs(places - coord))), axis=axis)
+        line: _Floats = np.take(image, int(np.argmin(np.abs(places - coord))), axis=axis)
+        return line
 
     def scan_arbitrary_path(self, path_points: ArrayLike, channels: _Channels = None,
                             modification: _Modification = None) -> _Floats:
-        """The pixels of an image along straight lines between places (x, y): channels by pixels."""
+        """The pixels of an image along straight lines between places (x, y), m: channels by pixels."""
         points = np.asarray(path_points, dtype=float)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
             raise ValueError(f"path_points: give two or more places (x, y), not an array of {points.shape}")
@@ -122,8 +126,8 @@ class AFM_Microscope:
         path = np.concatenate(places)
         return self.get_scan(channels, modification)[:, path[:, 0], path[:, 1]]
 
-    def get_spectrum(self, location: Optional[Sequence[float]] = None, channel: Optional[str] = None) -> tuple[_Floats, _Floats]:
-        """A force curve there, down and up: height of the base above the surface in m, force in N. The tip stays there."""
+    def get_spectrum(self, location: Optional[typing.Sequence[float]] = None, channel: Optional[str] = None) -> tuple[_Floats, _Floats]:
+        """A force curve at a place, m, down and up: height of the base above the surface in m, force in N. The tip stays there."""
         if channel not in (None, "Force"):
             raise ValueError(f"channel: \"{channel}\" is no spectrum; choose \"Force\"")
         if location is not None:

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/whole_file.h"
@@ -247,6 +248,7 @@ TEST(Generated, RefusesWhatIsUnphysical) {
   expect_refusal(gel + " --noise nanpN", "--noise: cannot read");
   expect_refusal(gel + " --noise -3pN", "is outside");
   expect_refusal(gel + " --noise 3", "it has no unit");
+  expect_refusal(gel + " --seed=-1", "--seed: cannot read \"-1\" as a number that it takes");
   expect_refusal(gel + " --drift 0.9um/s", "faster than half the base's");
   expect_refusal("curve --modulus 3kPa --radius 5um --spring-constant 0.05N/m --most-force 1uN",
                  "more than its radius, where its paraboloid is no sphere");
@@ -296,13 +298,63 @@ TEST(Generated, MapThatIsInterruptedLeavesNothing) {
 
 // A limit on the size of files fails as a full disk does.
 TEST(Generated, OnAFullDiskLeavesNothing) {
-  const support::ScratchFolder folder;
-  const ProgramResult result =
-      support::run_program(fmt::format("bash -c 'ulimit -f 1; {} generate curve {} --points 5000 --out {}'",
-                                       support::touchafm(), kGel, folder.file("curve.tab")));
-  EXPECT_EQ(result.exit_code, 1) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("cannot write"));
-  EXPECT_TRUE(fs::is_empty(folder.path()));
+  const std::vector<std::string> made{fmt::format("curve {} --points 5000 --out curve.tab", kGel),
+                                      fmt::format("curve {} --points 60 --count 40 --out curves.h5", kGel),
+                                      fmt::format("map {} --points 100 --pixels 4x4 --out map.h5", kGel),
+                                      "image --material mica --size 40nm --pixels 32 --rate 20Hz --out mica.gwy"};
+  for (const std::string& arguments : made) {
+    for (const int blocks : {1, 8}) {
+      const support::ScratchFolder folder;
+      const ProgramResult result = support::run_program(fmt::format(
+          "bash -c 'cd {} && ulimit -f {} && {} generate {}'", folder.path(), blocks, support::touchafm(), arguments));
+      EXPECT_EQ(result.exit_code, 1) << arguments << "\n" << result.err;
+      EXPECT_THAT(result.err, HasSubstr("cannot write")) << arguments;
+      EXPECT_TRUE(fs::is_empty(folder.path())) << arguments;
+    }
+  }
+}
+
+// The name of the file is legal, that of its truth is too long.
+TEST(Generated, WithoutAPlaceForItsTruthIsNotWritten) {
+  for (const auto& [arguments, ending] :
+       {std::pair(fmt::format("curve {}", kGel), ".h5"), std::pair(fmt::format("map {} --pixels 2x2", kGel), ".h5"),
+        std::pair(std::string("image --material mica --pixels 8"), ".gwy")}) {
+    const support::ScratchFolder folder;
+    const std::string file = folder.file(std::string(250, 'a') + ending);
+    const ProgramResult result = run_touchafm("generate " + arguments + " --out " + file);
+    EXPECT_EQ(result.exit_code, 1) << result.err;
+    EXPECT_THAT(result.err, HasSubstr("cannot write"));
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+    fs::create_directory(folder.file("it" + std::string(ending) + ".truth.json"));
+    EXPECT_EQ(run_touchafm("generate " + arguments + " --out " + folder.file("it") + ending).exit_code, 2);
+    EXPECT_FALSE(fs::exists(folder.file("it") + ending));
+  }
+  const ProgramResult nowhere = run_touchafm(fmt::format("generate curve {} --out /proc/curve.h5", kGel));
+  EXPECT_EQ(nowhere.exit_code, 1) << nowhere.err;
+}
+
+// Whenever it is killed: the truth is there wherever the file is, and after a signal that it can take also the reverse.
+TEST(Generated, IsNeverWithoutItsTruthWhenItIsKilled) {
+  std::size_t pairs = 0, none = 0;
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    for (int tenths_ms = 0; tenths_ms < 600; tenths_ms += 15) {
+      const support::ScratchFolder folder;
+      const std::string file = folder.file("curve.tab");
+      support::LiveProgram curve(
+          {support::touchafm(), "generate", "curve", "--modulus", "3kPa", "--radius", "5um", "--spring-constant",
+           "0.05N/m", "--most-force", "1nN", "--points", "50", "--out", file},
+          "");
+      std::this_thread::sleep_for(std::chrono::microseconds(100 * tenths_ms));
+      curve.signal(signal);
+      ASSERT_TRUE(curve.ends());
+      const bool has_file = fs::exists(file), has_truth = fs::exists(file + ".truth.json");
+      EXPECT_TRUE(has_truth || !has_file) << signal << " after " << tenths_ms;
+      EXPECT_TRUE(signal == SIGKILL || has_truth == has_file) << tenths_ms;
+      ++(has_file ? pairs : none);
+    }
+  }
+  EXPECT_GT(pairs, 0U);
+  EXPECT_GT(none, 0U);
 }
 
 }  // namespace generate_program_test
