@@ -19,10 +19,10 @@
 
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
-#include "support/hertz_curve.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
+#include "support/samples/hertz_curve.h"
 #include "support/scratch_folder.h"
 
 namespace afm::app {
