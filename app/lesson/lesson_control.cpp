@@ -100,12 +100,14 @@ void LessonControl::put_particles_back(std::int64_t now_ns) {
   if (lesson_.orders_particles_back()) servo.put_particles_back(now_ns);
 }
 
-// A blind sample looks like the first one, whichever it is, and has no labels; a lever that taps stands still.
+// A blind sample looks like the first one, whichever it is, and has no labels; a lever that taps rests, and no ring
+// shows its jumps.
 void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   if (!lesson_.prompt().hidden) return;
   if (now.wall.material) now.wall.material = 0;
   now.wall.release_z_m = 0;
   now.wall.swing = {};
+  now.wall.cue = {};
   now.curves = {};
 }
 

@@ -117,6 +117,27 @@ TEST(JumpCue, KeepsTheForceOfTheJumpWhileTheTipMovesOn) {
   EXPECT_EQ(cue_text(cues.at(2'800'000'000).value(), test::english()), "pull-off \u221210.00 nN");
 }
 
+// A lever that taps has the ring, and with it the pulse of a headset's controller, of its own two jumps.
+TEST(JumpCue, IsThatOfALeverThatTapsToo) {
+  using enum physics::EventKind;
+  scene::TipEvent in = event(JumpToRepulsion, 1'000'000'000), out = event(JumpToAttraction, 2'000'000'000);
+  in.force_before_n = -0.55e-9;
+  in.force_after_n = 0.31e-9;
+  out.force_after_n = -0.39e-9;
+  JumpCues cues;
+  cues.add(in);
+  EXPECT_EQ(cues.begun_ns(1'100'000'000), 1'000'000'000);
+  EXPECT_EQ(cue_text(cues.at(1'100'000'000).value(), test::english()), "repulsive +0.31 nN");
+  cues.add(event(Slip, 1'500'000'000));
+  cues.add(out);
+  EXPECT_EQ(cues.begun_ns(2'100'000'000), 2'000'000'000);
+  EXPECT_EQ(cue_text(cues.at(2'100'000'000).value(), test::english()), "attractive \u22120.39 nN");
+  EXPECT_LT(cue_ring({.kind = JumpToRepulsion, .age_s = 0.5}).radius,
+            cue_ring({.kind = JumpToRepulsion, .age_s = 0.1}).radius);
+  EXPECT_GT(cue_ring({.kind = JumpToAttraction, .age_s = 0.5}).radius,
+            cue_ring({.kind = JumpToAttraction, .age_s = 0.1}).radius);
+}
+
 TEST(FilmStrip, PutsReducedFramesInRows) {
   std::vector<render::Image> frames;
   for (std::uint8_t i = 0; i < 3; ++i) {

@@ -233,6 +233,9 @@ TEST_F(ViewInAHeadset, FeelsALeverThatTapsAndRecordsIt) {
   ASSERT_TRUE(view.says("chosen: Mica")) << view.said();
   ASSERT_TRUE(view.says("jump to the repulsive state")) << view.said();
   ASSERT_TRUE(view.says("jump to the attractive state")) << view.said();
+  EXPECT_TRUE(view.within(std::chrono::seconds(5), [&] { return pulses() >= 2; }))
+      << "one for each jump: " << pulses() << "\n"
+      << view.said();
   expect_good_end(view);
   int replayed = 0;
   for (const auto& file : std::filesystem::directory_iterator(sessions)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/state/jump_cue.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -14,16 +16,16 @@ namespace {
 constexpr double kNearRadius = 0.4, kFarRadius = 4.0;
 constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
 
-// The force that the paper gives for the jump: F_attr or F_ad.
+// The force that the paper gives for the jump: F_attr or F_ad. Of a lever that taps: the mean force after it.
 float force_of(const scene::TipEvent& event) {
-  const bool in = event.kind == physics::EventKind::JumpToContact;
-  return static_cast<float>(in ? event.force_after_n : event.force_before_n);
+  const bool before = event.kind == physics::EventKind::JumpOffContact;
+  return static_cast<float>(before ? event.force_before_n : event.force_after_n);
 }
 
 }  // namespace
 
 void JumpCues::add(const scene::TipEvent& event) {
-  if (!physics::is_jump(event.kind)) return;
+  if (!physics::begins_cycle(event.kind) && !physics::ends_cycle(event.kind)) return;
   if (next_ && next_->since_ns <= event.time_ns) shown_ = std::exchange(next_, std::nullopt);
   if (!shown_ || event.time_ns - shown_->since_ns >= kLeastNs) {
     shown_ = {event.kind, force_of(event), event.time_ns};
@@ -62,7 +64,7 @@ std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::in
 
 CueRing cue_ring(const JumpCue& cue) {
   const double t = std::clamp(cue.age_s / kRingSeconds, 0.0, 1.0);
-  const bool in = cue.kind == physics::EventKind::JumpToContact;
+  const bool in = physics::begins_cycle(cue.kind);
   const double way = in ? 1.0 - t : t;
   const auto strength = static_cast<float>((1.0 - t) * (1.0 - t));
   return {(in ? kInColor : kOffColor) * strength, kNearRadius + (kFarRadius - kNearRadius) * way};
@@ -70,8 +72,16 @@ CueRing cue_ring(const JumpCue& cue) {
 
 std::string cue_text(const JumpCue& cue, const Phrases& phrases) {
   const std::string force = force_text(static_cast<double>(cue.force_n));
-  return cue.kind == physics::EventKind::JumpToContact ? phrases.text<Phrase::CueSnapIn>(force)
-                                                       : phrases.text<Phrase::CuePullOff>(force);
+  switch (cue.kind) {
+    case physics::EventKind::JumpToContact:
+      return phrases.text<Phrase::CueSnapIn>(force);
+    case physics::EventKind::JumpToRepulsion:
+      return fmt::format("{} {}", phrases[Phrase::SwingRepulsive], force);
+    case physics::EventKind::JumpToAttraction:
+      return fmt::format("{} {}", phrases[Phrase::SwingAttractive], force);
+    default:
+      return phrases.text<Phrase::CuePullOff>(force);
+  }
 }
 
 }  // namespace afm::exhibit

@@ -6,11 +6,16 @@
 #include <numbers>
 #include <utility>
 
+#include "tapping/swing_shape.h"
+
 namespace afm::physics {
 namespace {
 
 constexpr double kLeastAmplitude = 1e-15;  // m; below it the phase has no meaning
 constexpr double kShiftError = 1e-17;      // m
+constexpr double kShiftShare = 1e-7;       // error of a shift, as a share of it
+constexpr double kCoarse = 300.0;          // errors of averages that no derivative is taken of, in those of the others
+constexpr double kLeastSlope = -0.2;       // of <F G>/k - x: no step is longer than five times what is missing
 
 }  // namespace
 
@@ -20,30 +25,72 @@ AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const Driv
       k_(lever.spring_constant.si),
       a_(lever.base_amplitude.si),
       r_(lever.ratio),
-      q_(lever.quality_factor) {}
+      q_(lever.quality_factor),
+      shape_(std::make_unique<SwingShape>(k_)) {}
 
-const SwingAverages& AveragedFlow::averages_at(double amplitude, double z) noexcept {
+AveragedFlow::~AveragedFlow() = default;
+
+const SwingAverages& AveragedFlow::averages(Length amplitude, Length z) noexcept {
+  return averages_at(amplitude.si, z.si, kCoarse);
+}
+
+const SwingAverages& AveragedFlow::averages_at(double amplitude, double z, double coarseness) noexcept {
+  if (!bent_averages_at(amplitude, z, coarseness)) straight_averages_at(amplitude, z);
+  return averages_;
+}
+
+Energy AveragedFlow::lost() const noexcept {
+  // of the harmonics, each n^2 A_n^2 pi k r/Q
+  return averages_.lost + Energy(2.0 * std::numbers::pi * k_ * r_ / q_ * shape_->mean_square_rate());
+}
+
+// Secant steps on <F G>/k - x, while the shape of the swing follows.
+bool AveragedFlow::bent_averages_at(double amplitude, double z, double coarseness) noexcept {
+  constexpr int kMostSteps = 40;
+  constexpr double kShapeShare = 0.1;
+  double x = shift_, before = x, missing_before = 0.0, slope = -1.0;
+  for (int i = 0; i < kMostSteps; ++i) {
+    averages_ = surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive()}, shape_.get());
+    const double bend_error = shape_->finish();
+    const double missing = averages_.shift_at_lowest.si / k_ - x;
+    const double bound = coarseness * (kShiftError + kShiftShare * std::abs(x));
+    if (std::abs(missing) < bound && bend_error < bound) {
+      shift_ = x;
+      return true;
+    }
+    if (!std::isfinite(missing)) break;
+    // x waits for the shape, so that the slope is its own
+    if (bend_error > std::max(bound, kShapeShare * std::abs(missing))) continue;
+    if (x != before) slope = std::min((missing - missing_before) / (x - before), kLeastSlope);
+    before = std::exchange(x, x - missing / slope);
+    missing_before = missing;
+  }
+  return false;
+}
+
+// A contact so stiff that its swing has no shape: only the lowest point is shifted.
+void AveragedFlow::straight_averages_at(double amplitude, double z) noexcept {
   constexpr int kMostSteps = 12;
+  shape_->straighten();
   // secant steps on <F G>/k - x
-  double x = shift_, before = 0.0, missing_before = 0.0;
+  double x = std::isfinite(shift_) ? shift_ : 0.0, before = 0.0, missing_before = 0.0;
   for (int i = 0; i < kMostSteps; ++i) {
     averages_ = surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive()});
     const double missing = averages_.shift_at_lowest.si / k_ - x;
     shift_ = x;
-    if (std::abs(missing) < kShiftError + 1e-7 * std::abs(x)) break;
+    if (std::abs(missing) < kShiftError + kShiftShare * std::abs(x)) break;
     double slope = i == 0 ? -1.0 : (missing - missing_before) / (x - before);
-    if (!(slope < -0.2)) slope = -1.0;
+    if (!(slope < kLeastSlope)) slope = -1.0;
     before = std::exchange(x, x - missing / slope);
     missing_before = missing;
   }
-  return averages_;
 }
 
 AveragedFlow::Rate AveragedFlow::rate(const TapState& state, double z) noexcept {
   const double amplitude = std::max(state.amplitude.si, kLeastAmplitude);
   const SwingAverages& swing = averages_at(amplitude, z);
   return {-amplitude / (2.0 * q_) + a_ / (2.0 * r_) * std::sin(state.phase) -
-              swing.lost.si / (2.0 * std::numbers::pi * k_ * r_ * amplitude),
+              lost().si / (2.0 * std::numbers::pi * k_ * r_ * amplitude),
           (r_ * r_ - 1.0) / (2.0 * r_) + a_ / (2.0 * r_ * amplitude) * std::cos(state.phase) +
               swing.virial.si / (r_ * k_ * amplitude * amplitude)};
 }
@@ -59,7 +106,7 @@ void AveragedFlow::step(TapState& state, Length z, double angle) noexcept {
 
 // The phase that holds a resting swing whose averages were computed last.
 double AveragedFlow::sine_of_rest(double amplitude) const noexcept {
-  return r_ * amplitude / (q_ * a_) + averages_.lost.si / (std::numbers::pi * k_ * a_ * amplitude);
+  return r_ * amplitude / (q_ * a_) + lost().si / (std::numbers::pi * k_ * a_ * amplitude);
 }
 double AveragedFlow::cosine_of_rest(double amplitude) const noexcept {
   return (1.0 - r_ * r_ - 2.0 * averages_.virial.si / (k_ * amplitude * amplitude)) * amplitude / a_;
@@ -82,11 +129,10 @@ AveragedFlow::Linear AveragedFlow::linear(const TapState& state, double z) noexc
   const double amplitude = std::max(state.amplitude.si, kLeastAmplitude), length = 1e-6 * amplitude;
   const Rate here = rate(state, z);
   const Rate longer = rate({Length(amplitude + length), state.phase}, z);
-  const Rate shorter = rate({Length(amplitude - length), state.phase}, z);
   return {.rate = here,
-          .amplitude_by_amplitude = (longer.amplitude - shorter.amplitude) / (2.0 * length),
+          .amplitude_by_amplitude = (longer.amplitude - here.amplitude) / length,
           .amplitude_by_phase = a_ / (2.0 * r_) * std::cos(state.phase),
-          .phase_by_amplitude = (longer.phase - shorter.phase) / (2.0 * length),
+          .phase_by_amplitude = (longer.phase - here.phase) / length,
           .phase_by_phase = -a_ / (2.0 * r_ * amplitude) * std::sin(state.phase)};
 }
 
@@ -135,14 +181,23 @@ RestingTap AveragedFlow::settle(const TapState& from, Length z) {
 }
 
 double AveragedFlow::amplitude_at_lowest(double lowest, double z) noexcept {
-  // A = Z + x - lowest with the shift x of that swing
-  for (int i = 0; i < 16; ++i) {
-    const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
-    averages_ = surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()});
-    const double shift = averages_.shift_at_lowest.si / k_;
-    const bool done = std::abs(shift - shift_) < 1e-14;
-    shift_ = shift;
-    if (done) break;
+  constexpr int kMostSteps = 24;
+  // A = Z + x - lowest with the shift x of that swing; from the previous one, then from a free one
+  for (const bool afresh : {false, true}) {
+    if (afresh) {
+      shape_->straighten();
+      shift_ = 0.0;
+    }
+    for (int i = 0; i < kMostSteps; ++i) {
+      const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
+      averages_ =
+          surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()}, shape_.get());
+      const double bend_error = shape_->finish(), shift = averages_.shift_at_lowest.si / k_;
+      const bool done = std::abs(shift - shift_) < 1e-14 && bend_error < 1e-14;
+      shift_ = shift;
+      if (done && z + shift_ - lowest > kLeastAmplitude) return z + shift_ - lowest;
+      if (!std::isfinite(shift)) break;
+    }
   }
   return z + shift_ - lowest;
 }
@@ -155,6 +210,7 @@ AveragedFlow::Sample AveragedFlow::sample_at(double lowest, double z) noexcept {
 std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z) {
   constexpr double kFinest = 4e-12, kGrowth = 1.12;  // m; dense where contact begins
   constexpr double kHopeless = 30.0;                 // imbalance of a push far beyond what the drive sustains
+  constexpr int kSeen = 6;                           // such samples in a row, as a swing may have lost its shape
   const double contact = surface_->contact_height().si;
   std::vector<double> heights;
   for (double d = kFinest; contact + d < z; d *= kGrowth) heights.push_back(contact + d);
@@ -165,9 +221,11 @@ std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z) {
   shift_ = 0.0;
   for (const double lowest : heights) samples.push_back(sample_at(lowest, z));
   const double deepest = std::max(z, 4.0 * lever_.free_amplitude.si);
+  int hopeless = 0;
   for (double d = kFinest; d < deepest; d *= kGrowth) {
     samples.push_back(sample_at(contact - d, z));
-    if (averages_.virial.si < 0.0 && samples.back().imbalance > kHopeless) break;
+    hopeless = averages_.virial.si < 0.0 && samples.back().imbalance > kHopeless ? hopeless + 1 : 0;
+    if (hopeless == kSeen) break;
   }
   return samples;
 }
@@ -209,20 +267,67 @@ AveragedFlow::Sample AveragedFlow::turn_between(const Sample& left, const Sample
   return turn;
 }
 
+// The tip on the sample, whose adhesion holds a lever that pulls: there it is a driven oscillator with the contact as a
+// second spring.
+std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
+  constexpr double kProbe = 1e-14;  // m, amplitude of a swing that feels one force
+  constexpr int kHeights = 64, kHalvings = 60;
+  const auto force = [&](double height) {
+    return surface_->averages({Length(kProbe), Length(height), lever_.angular_drive()}).mean.si;
+  };
+  // of the lever and the sample, negative where the sample pushes the tip up
+  const auto excess = [&](double height) { return k_ * (height - z) - force(height); };
+  const double release = surface_->release_height().si;
+  double low = release, high = release, reach = 1e-12;
+  // the highest place where the sample pulls the tip down, and below it the next where it pushes it up
+  for (int i = 0; i < kHeights && excess(high - kProbe) <= 0.0; ++i) high = release - (reach *= 1.2);
+  if (excess(high - kProbe) <= 0.0) return std::nullopt;
+  for (int i = 0; i < kHeights && excess(low) > 0.0; ++i) low = high - (reach *= 1.5);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (excess(middle) > 0.0 ? high : low) = middle;
+  }
+  const double step = 1e-5 * (release - low);
+  const double stiffening = (force(low - step) - force(low + step)) / (2.0 * step * k_);
+  const double spring = 1.0 - r_ * r_ + stiffening, damping = r_ / q_;
+  const TapState state{Length(a_ / std::hypot(spring, damping)), std::atan2(damping, spring)};
+  if (!(stiffening > 0.0 && low + state.amplitude.si < release)) return std::nullopt;
+  shift_ = low - z;
+  shape_->straighten();
+  return describe(state, Length(z));
+}
+
 std::vector<RestingTap> AveragedFlow::resting_at(Length z) {
+  constexpr double kAtRest = 0.02;  // imbalance of a root
+  constexpr double kSame = 1e-9;    // share of the amplitude by which two roots differ
   const std::vector<Sample> samples = samples_at(z.si);
   const auto differ = [](const Sample& a, const Sample& b) { return (a.imbalance < 0.0) != (b.imbalance < 0.0); };
   std::vector<RestingTap> taps;
+  // a change of sign where the shape of the swing is lost is no state, but one at the step of a latch is
+  const bool latches = surface_->release_height() != surface_->contact_height();
+  const auto add_between = [&](const Sample& one, const Sample& other) {
+    const RestingTap tap = root_between(one, other, z.si);
+    const bool again =
+        !taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) < kSame * tap.state.amplitude;
+    if (!again && (latches || std::abs(imbalance(tap.state.amplitude.si, z.si)) < kAtRest)) taps.push_back(tap);
+  };
   for (std::size_t i = 1; i < samples.size(); ++i) {
     if (differ(samples[i - 1], samples[i])) {
-      taps.push_back(root_between(samples[i - 1], samples[i], z.si));
+      add_between(samples[i - 1], samples[i]);
     } else if (i + 1 < samples.size()) {
       // two roots between neighbours
       const Sample turn = turn_between(samples[i - 1], samples[i], samples[i + 1], z.si);
       if (!differ(turn, samples[i])) continue;
-      taps.push_back(root_between(samples[i - 1], turn, z.si));
-      taps.push_back(root_between(turn, samples[i + 1], z.si));
+      add_between(samples[i - 1], turn);
+      add_between(turn, samples[i + 1]);
     }
+  }
+  if (const auto stuck = stuck_at(z.si)) {
+    const auto same = [&](const RestingTap& tap) {
+      return abs(tap.state.amplitude - stuck->state.amplitude) < 0.05 * stuck->state.amplitude &&
+             std::abs(tap.state.phase - stuck->state.phase) < 0.05;
+    };
+    if (std::none_of(taps.begin(), taps.end(), same)) taps.push_back(*stuck);
   }
   std::sort(taps.begin(), taps.end(),
             [](const RestingTap& a, const RestingTap& b) { return a.state.amplitude < b.state.amplitude; });

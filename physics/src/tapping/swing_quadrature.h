@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "tapping/swing_shape.h"
+
 namespace afm::physics {
 
-// Sums over a part of a swing whose height is bottom + 2 A sin^2(angle/2).
+// Sums over a part of a swing whose height is bottom + 2 A sin^2(angle/2), and its bend.
 struct SwingSums {
   double force = 0.0;    // integral of F, N
   double cosine = 0.0;   // integral of F cos(angle)
@@ -37,22 +39,35 @@ inline constexpr std::array<GaussNode, 6> kGauss12{{{0.1252334085114689, 0.24914
 template <class Add>
 void gauss12(double from, double to, const Add& add) {
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  for (const GaussNode& node : kGauss12) {
-    add(middle - half * node.x, half * node.weight);
-    add(middle + half * node.x, half * node.weight);
-  }
+  // in rising order
+  for (std::size_t i = kGauss12.size(); i-- > 0;) add(middle - half * kGauss12[i].x, half * kGauss12[i].weight);
+  for (const GaussNode& node : kGauss12) add(middle + half * node.x, half * node.weight);
 }
 
 // A swing over a force that is analytic above `steep`, below which it varies fast.
 struct SwingGeometry {
   double amplitude, bottom;
   double zero_of_indentation;
+  SwingShape* shape = nullptr;  // the bend, which learns the forces; null: none
+  double ways = 1.0;            // share of both ways in which the force acts: 1, or one half
 
+  double bend(double angle) const { return shape == nullptr ? 0.0 : shape->bend(angle); }
   double height(double angle) const {
     const double s = std::sin(0.5 * angle);
-    return bottom + 2.0 * amplitude * s * s;
+    return bottom + 2.0 * amplitude * s * s + bend(angle);
   }
   double angle(double height) const {
+    double bent = 0.0, found = straight_angle(height);
+    if (shape == nullptr) return found;
+    for (int i = 0; i < 12; ++i) {
+      const double next = shape->bend(found);
+      if (std::abs(next - bent) < 1e-18) break;
+      bent = next;
+      found = straight_angle(height - bent);
+    }
+    return found;
+  }
+  double straight_angle(double height) const {
     const double share = (height - bottom) / (2.0 * amplitude);
     return 2.0 * std::asin(std::sqrt(std::clamp(share, 0.0, 1.0)));
   }
@@ -60,13 +75,16 @@ struct SwingGeometry {
   template <class ForceAt>
   void add(double angle, double weight, const ForceAt& force_at, SwingSums& sums) const {
     const double s = std::sin(0.5 * angle), sine_squared = 4.0 * s * s * (1.0 - s * s);
-    const double h = bottom + 2.0 * amplitude * s * s;
-    const double force = weight * force_at(h);
+    const double cosine = 1.0 - 2.0 * s * s, sine = std::sqrt(sine_squared);
+    double bent = 0.0;
+    if (shape != nullptr) bent = ways == 1.0 ? shape->bend_now(angle, cosine, sine) : shape->bend(angle);
+    const double h = bottom + 2.0 * amplitude * s * s + bent;
+    const double here = force_at(h), force = weight * here;
+    if (shape != nullptr) shape->add(angle, cosine, sine, ways * weight, here, bent);
     sums.force += force;
-    sums.cosine += force * (1.0 - 2.0 * s * s);
-    const double sine = std::sqrt(sine_squared);
+    sums.cosine += force * cosine;
     sums.work += force * sine;
-    sums.shift += force * ((std::numbers::pi - angle) * sine - 0.5 * (1.0 - 2.0 * s * s));
+    sums.shift += force * ((std::numbers::pi - angle) * sine - 0.5 * cosine);
     if (h < zero_of_indentation) sums.viscous += weight * std::sqrt(zero_of_indentation - h) * sine_squared;
   }
 

@@ -75,8 +75,9 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
       const SwingAverages& swing = flow.averages(Length(amplitude), Length(contact_m_ + gap + amplitude));
       const double root = std::sqrt(amplitude);
       const std::size_t node = row * columns_ + i;
-      tables.moving[node] = {static_cast<float>(swing.virial.si / root), static_cast<float>(swing.lost.si / root)};
-      tables.forces[node] = {static_cast<float>(swing.peak.si), static_cast<float>(swing.mean.si * root)};
+      tables.moving[node] = {static_cast<float>(swing.virial.si / root), static_cast<float>(flow.lost().si / root)};
+      tables.forces[node] = {static_cast<float>(swing.peak.si), static_cast<float>(swing.mean.si * root),
+                             static_cast<float>(swing.lost.si / root)};
     }
   }
   tables_ = std::make_shared<const Tables>(std::move(tables));
@@ -134,7 +135,7 @@ TapEnvelope::Swing TapEnvelope::contact() const noexcept {
   const Place place = place_of(amplitude, gap_m_);
   if (place.beyond) return {};
   const double root = std::sqrt(amplitude);
-  return {.lost = root * between(tables_->moving, place, &Moving::lost),
+  return {.lost = root * between(tables_->forces, place, &Forces::lost),
           .peak = between(tables_->forces, place, &Forces::peak),
           .mean = between(tables_->forces, place, &Forces::mean) / root};
 }

@@ -39,7 +39,7 @@ class FlowAtHeight {
     for (std::size_t i = 0; i < kNodesOfHeight; ++i) {
       const double amplitude = amplitude_of(i), stored = k * r * amplitude * amplitude;
       const SwingAverages& swing = flow.averages(Length(amplitude), Length(z));
-      rates_.push_back({0.5 / lever.quality_factor + swing.lost.si / (2.0 * std::numbers::pi * stored),
+      rates_.push_back({0.5 / lever.quality_factor + flow.lost().si / (2.0 * std::numbers::pi * stored),
                         (r * r - 1.0) / (2.0 * r) + swing.virial.si / stored});
     }
   }

@@ -29,10 +29,13 @@ struct SwungLaw {
 constexpr double kPoleBelowContact = 0.3e-9;
 
 template <class SwungLaw>
-SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law) {
+SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law, SwingShape* shape) {
   constexpr double kPi = std::numbers::pi;
   const double amplitude = swing.amplitude.si, bottom = swing.centre.si - amplitude;
-  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation};
+  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, shape};
+  SwingGeometry one_way = geometry;
+  one_way.ways = 0.5;
+  if (shape != nullptr) shape->begin();
   const double pole = law.contact - (law.zero_of_indentation > 0.0 ? law.zero_of_indentation : kPoleBelowContact);
 
   const bool touches = bottom <= law.contact;
@@ -41,8 +44,8 @@ SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law) {
   const double off = touches ? geometry.angle(law.release) : 0.0;  // the way up, attached below
   if (stuck) in = off;
   const SwingSums pressed = geometry.in_contact(0.0, in, law.attached);
-  const SwingSums drawn = geometry.in_contact(in, off, law.attached);
-  const SwingSums falling = geometry.above_contact(in, off, pole, law.free);
+  const SwingSums drawn = one_way.in_contact(in, off, law.attached);
+  const SwingSums falling = one_way.above_contact(in, off, pole, law.free);
   const SwingSums away = geometry.above_contact(off, kPi, pole, law.free);
   const SwingSums all = pressed + pressed + drawn + falling + away + away;
 
@@ -93,18 +96,20 @@ TapSurface::TapSurface(Law law, const ContactParameters& contact, const LawOptio
   }
 }
 
-SwingAverages TapSurface::averages(const TapSwing& swing) const noexcept {
+SwingAverages TapSurface::averages(const TapSwing& swing, SwingShape* shape) const noexcept {
   const auto free = [this](double height) { return grips_->free.force(Length(height)).si; };
   const auto attached = [this](double height) { return grips_->attached.force(Length(height)).si; };
   return averages_over(
-      swing, SwungLaw{free, attached, contact_height().si, release_height().si, zero_of_indentation().si, viscous_si_});
+      swing, SwungLaw{free, attached, contact_height().si, release_height().si, zero_of_indentation().si, viscous_si_},
+      shape);
 }
 
 SwingAverages TapSurface::exact_averages(const TapSwing& swing) const {
   const auto free = [this](double height) { return point_at(law_.free, height).force.si; };
   const auto attached = [this](double height) { return point_at(law_.attached, height).force.si; };
   return averages_over(
-      swing, SwungLaw{free, attached, contact_height().si, release_height().si, zero_of_indentation().si, viscous_si_});
+      swing, SwungLaw{free, attached, contact_height().si, release_height().si, zero_of_indentation().si, viscous_si_},
+      nullptr);
 }
 
 Stiffness TapSurface::exact_gradient(Length height) const {

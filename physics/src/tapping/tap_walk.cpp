@@ -116,9 +116,11 @@ void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch,
                           cleveland_energy(lever, tap.state.amplitude, tap.state.phase)});
 }
 
-void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve) {
+void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
+                 Length least) {
   const auto& [branch, heights] = direction;
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
+    if (state.amplitude < least) return;
     if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve);
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
   }

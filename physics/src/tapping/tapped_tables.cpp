@@ -25,10 +25,14 @@ constexpr double kFaintReduction = 0.02;    // share of the free amplitude
 constexpr double kStopped = 0.01;           // share of the free amplitude, the least in the table of TapEnvelope
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
+Length height_of(int index, Length from, Length to) {
+  return from + (to - from) * (static_cast<double>(index) / kHeights);
+}
+
 // By the averaged flow, from rest to rest.
 TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
   TapDirection down{Branch::Approach, {}}, up{Branch::Retract, {}};
-  for (int i = 0; i <= kHeights; ++i) down.heights.push_back(from + (to - from) * (static_cast<double>(i) / kHeights));
+  for (int i = 0; i <= kHeights; ++i) down.heights.push_back(height_of(i, from, to));
   up.heights.assign(down.heights.rbegin(), down.heights.rend());
   TappingCurve curve;
   const DrivenLever& lever = flow.lever();
@@ -49,10 +53,14 @@ TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, co
     if (std::abs(amplitude / a0 - 1.0) < 0.5 * kFaintReduction) break;
     from = from + 0.5 * a0;
   }
-  TappingCurve curve = curve_of(flow, from, floor);
-  const auto stopped = std::find_if(curve.points.begin(), curve.points.end(),
-                                    [&](const TapPoint& point) { return point.state.amplitude < kStopped * a0; });
-  return stopped == curve.points.end() ? curve : curve_of(flow, from, stopped->z);
+  // below, a swing hovers between states, which takes long to compute
+  TapDirection down{Branch::Approach, {}};
+  for (int i = 0; i <= kHeights; ++i) down.heights.push_back(height_of(i, from, floor));
+  TapState state = flow.settle({a0, lever.free_phase}, from).state;
+  TappingCurve curve;
+  walk_slowly(flow, down, state, curve, kStopped * a0);
+  if (state.amplitude < kStopped * a0) return curve_of(flow, from, curve.points.back().z);
+  return curve_of(flow, from, floor);
 }
 
 // P over falling Z, between the points of a walk.

@@ -54,7 +54,7 @@ bool same_state(const TapState& a, const TapState& b) {
 // Stable states beside both directions of the path, looked for at a sample of its heights, from the highest down.
 std::vector<TapIsland> islands_of(AveragedFlow& flow, const std::array<TapDirection, 2>& directions,
                                   const TappingCurve& curve) {
-  constexpr std::size_t kMostHeights = 200;
+  constexpr std::size_t kMostHeights = 100;
   const auto& heights = directions[0].heights;
   const std::size_t stride = (heights.size() + kMostHeights - 1) / kMostHeights;
   std::vector<std::vector<RestingTap>> beside;

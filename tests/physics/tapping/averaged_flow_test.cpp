@@ -10,14 +10,11 @@
 #include <vector>
 
 #include "physics/tapping/tapped_sample.h"
-#include "physics/tapping/tapping_oscillator.h"
-#include "support/deep.h"
 
 namespace afm::physics {
 namespace averaged_flow_test {
 
 using namespace literals;
-using support::deep;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -152,73 +149,6 @@ TEST(AveragedFlow, RelaxesWithTwiceTheQualityFactorUnderAConservativeForce) {
     for (TapState& swing : swings) flow.step(swing, 17.5_nm, angle);
   }
   EXPECT_NEAR(area() / before, std::exp(-0.5), 2e-3);
-}
-
-// Criterion: at rest in the same state, averaging agrees with direct integration. Where the second harmonic, which
-// averaging sees only at the lowest point, has more than a five hundredth of the amplitude, the bound is wider.
-TEST(TappingDeep, AveragingAgreesWithDirectIntegrationFromAQualityOf100) {
-  RandomInteraction random(11);
-  int compared = 0, outside = 0;
-  for (int i = 0, count = deep() ? 200 : 6; i < count; ++i) {
-    const TappedSample sample = random_tapped_sample(random);
-    const Length z(sample.a0_nm * 1e-9 * random.between(0.3, 1.0));
-    AveragedFlow flow(sample.surface(), sample.lever());
-    TappingOscillator tip(sample.surface(), sample.lever());
-    for (const RestingTap& tap : flow.resting_at(z)) {
-      if (!tap.stable) continue;
-      tip.place(z, tap.state);
-      const DirectSwing swing = tip.settle();
-      const TapState direct = resting_tap(swing).state;
-      if (std::abs(direct.phase - tap.state.phase) > 0.2) continue;  // another state
-      ++compared;
-      const double harmonic = swing.harmonics[2] / direct.amplitude;
-      const double share = harmonic < 2e-3 ? 3e-3 : 3.0 * harmonic, turn = harmonic < 2e-3 ? 0.5 : 500.0 * harmonic;
-      if (abs(direct.amplitude - tap.state.amplitude) > share * direct.amplitude ||
-          std::abs(degrees_of(direct.phase - tap.state.phase)) > turn) {
-        ++outside;
-      }
-    }
-  }
-  // known: 26 of 306 states lie outside, most by 1 to 11 degrees of phase at the same amplitude
-  EXPECT_LE(outside, 0.1 * compared);
-  EXPECT_GE(compared, deep() ? 200 : 6);
-}
-
-// Criterion: direct integration from anywhere ends in one of the states, with two exceptions that averaging over a
-// sinusoid does not know. The tip may stick to the sample, and a soft lever in strong adhesion, bent by it in every
-// swing, moves with a second harmonic of more than a two hundredth of its amplitude.
-TEST(TappingDeep, EveryStateOfDirectIntegrationIsAmongTheAveragedOnes) {
-  RandomInteraction random(12);
-  int rested = 0, bent = 0;
-  for (int i = 0, count = deep() ? 20 : 2; i < count; ++i) {
-    TappedSample sample = random_tapped_sample(random);
-    if (!deep()) sample.q = 100.0;
-    const Length z(sample.a0_nm * 1e-9 * random.between(0.5, 0.95));
-    AveragedFlow flow(sample.surface(), sample.lever());
-    const auto taps = flow.resting_at(z);
-    TappingOscillator tip(sample.surface(), sample.lever());
-    for (int j = 0, starts = deep() ? 100 : 8; j < starts; ++j) {
-      tip.place(z, {Length(sample.a0_nm * 1e-9 * random.between(0.05, 1.1)), random.between(0.1, 3.1)});
-      const DirectSwing swing = tip.settle();
-      const TapState direct = resting_tap(swing).state;
-      const bool sticks = direct.amplitude < Length(1e-11 * sample.a0_nm);
-      if (sticks) continue;
-      ++rested;
-      const bool known = std::any_of(taps.begin(), taps.end(), [&](const RestingTap& tap) {
-        return std::abs(degrees_of(tap.state.phase - direct.phase)) < 1.5 &&
-               abs(tap.state.amplitude - direct.amplitude) < 0.01 * direct.amplitude;
-      });
-      if (!known && swing.harmonics[2] > 5e-3 * direct.amplitude) {
-        ++bent;
-        continue;
-      }
-      EXPECT_TRUE(known) << i << " z " << nm_of(z) << " A " << nm_of(direct.amplitude) << " phase "
-                         << degrees_of(direct.phase) << " k " << sample.k << " Q " << sample.q << " A0 " << sample.a0_nm
-                         << " R " << sample.r_nm << " H " << sample.h_zj << " E " << sample.e_gpa;
-    }
-  }
-  // known: 19 of 2000 starts end in a bent state, in 4 of 20 set-ups
-  EXPECT_LE(bent, 0.02 * rested);
 }
 
 }  // namespace averaged_flow_test

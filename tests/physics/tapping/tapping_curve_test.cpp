@@ -112,63 +112,6 @@ TEST(TappingDeep, AMovingBaseJumpsElsewhere) {
   }
 }
 
-// Criterion: the envelope jumps where direct integration does, whatever the speed.
-TEST(TappingDeep, TheAveragedFlowJumpsWhereDirectIntegrationDoes) {
-  RandomInteraction random(14);
-  int compared = 0;
-  for (int i = 0, count = deep() ? 20 : 2; i < count; ++i) {
-    const TappedSample sample{.k = random.between(10.0, 50.0),
-                              .q = random.between(200.0, 600.0),
-                              .a0_nm = random.between(15.0, 30.0),
-                              .r_nm = random.between(10.0, 30.0),
-                              .h_zj = random.between(30.0, 120.0),
-                              .e_gpa = random.between(1.0, 5.0)};
-    const Length top(sample.a0_nm * 1.05e-9), bottom(sample.a0_nm * 0.6e-9);
-    const TapPath path{{top, bottom, 0.02_nm}, Velocity(random.between(deep() ? 0.05e-6 : 0.5e-6, 5e-6))};
-    const TappingCurve averaged = curve_of(sample, path), direct = curve_of(sample, path, TapMethod::Direct);
-    for (const Branch branch : {Branch::Approach, Branch::Retract}) {
-      const auto slow = jump_on(averaged, branch), exact = jump_on(direct, branch);
-      EXPECT_EQ(slow.has_value(), exact.has_value()) << i;
-      if (!slow || !exact) continue;
-      ++compared;
-      EXPECT_NEAR(nm_of(slow->z), nm_of(exact->z), 0.16)
-          << i << " speed " << path.speed->si << " Q " << sample.q << " A0 " << sample.a0_nm;
-    }
-  }
-  EXPECT_GE(compared, deep() ? 20 : 2);
-}
-
-// Criterion: direct integration in small steps brackets the folds.
-TEST(TappingDeep, DirectIntegrationBracketsTheFolds) {
-  RandomInteraction random(15);
-  for (int i = 0, count = deep() ? 10 : 1; i < count; ++i) {
-    TappedSample sample;
-    if (i > 0) {
-      sample = {.k = random.between(20.0, 50.0),
-                .q = random.between(200.0, 500.0),
-                .a0_nm = random.between(18.0, 30.0),
-                .r_nm = random.between(10.0, 30.0),
-                .h_zj = random.between(30.0, 100.0),
-                .e_gpa = random.between(1.0, 4.0)};
-    }
-    const Length top(sample.a0_nm * 1.1e-9), bottom(sample.a0_nm * 0.5e-9);
-    const TappingCurve folds = curve_of(sample, {{top, bottom, 0.1_nm}, {}});
-    const auto in = jump_on(folds, Branch::Approach);
-    if (!in) continue;
-    AveragedFlow flow(sample.surface(), sample.lever());
-    TappingOscillator tip(sample.surface(), sample.lever());
-    tip.place(in->z + 0.1_nm, flow.settle(in->before, in->z + 0.1_nm).state);
-    bool repels = false;
-    Length z = in->z + 0.1_nm;
-    for (; z > in->z - 0.11_nm && !repels; z = z - 0.02_nm) {
-      tip.set_base(z);
-      repels = tip.settle().averages.virial < Energy();
-    }
-    EXPECT_TRUE(repels) << i;
-    EXPECT_NEAR(nm_of(z), nm_of(in->z), 0.13) << i;
-  }
-}
-
 TEST(TappingCurve, RefusesWhatItCannotCompute) {
   const TapPath path{{22_nm, 2_nm, 0.1_nm}, {}};
   EXPECT_THROW((void)curve_of({.q = 99}, path), std::invalid_argument);

@@ -17,10 +17,11 @@ class Phrases;
 // device draws two frames a second, so a shorter cue might never be drawn.
 inline constexpr double kCueSeconds = 1.5, kRingSeconds = 1.0;
 
-// A recent jump, as it was when it happened: nothing in it follows the tip.
+// A recent jump of the tip, or of the state of a lever that taps, as it was when it happened: nothing in it follows the
+// tip.
 struct JumpCue {
   physics::EventKind kind = physics::EventKind::JumpToContact;
-  float force_n = 0;  // after a jump to contact, before a jump off
+  float force_n = 0;  // before a jump off contact, after any other
   double age_s = 0;   // 0 to kCueSeconds
 };
 
@@ -60,15 +61,15 @@ class JumpCues {
 // The cue that results from these events, in order of time.
 std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::int64_t now_ns);
 
-// The ring of light for a jump, distinguished by its motion as well as its colour: for a jump to contact it closes in
-// on the apex, for a jump off contact it spreads from it. Both fade.
+// The ring of light for a jump, distinguished by its motion as well as its colour: for a jump to contact or into the
+// repulsive state it closes in on the apex, for the way back it spreads from it. Both fade.
 struct CueRing {
   glm::vec3 color{0.0F};  // linear radiance
   double radius = 0;      // in radii of the contact's shade
 };
 CueRing cue_ring(const JumpCue& cue);
 
-// "snap-in −0.41 nN": the word and the number of the jump.
+// "snap-in −0.41 nN", "repulsive +0.31 nN": the word and the number of the jump.
 std::string cue_text(const JumpCue& cue, const Phrases& phrases);
 
 }  // namespace afm::exhibit

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "physics/tapping/driven_lever.h"
@@ -9,6 +10,8 @@
 #include "physics/units.h"
 
 namespace afm::physics {
+
+class SwingShape;
 
 // Amplitude and phase of a swing, as in physics/tapping/driven_lever.h.
 struct TapState {
@@ -30,8 +33,9 @@ struct RestingTap {
 //   A' = -A/2Q + (a/2r) sin(phi) - E/(2 pi k r A)
 //   phi' = (r^2 - 1)/2r + (a/2rA) cos(phi) + V/(r k A^2)
 //
-// V and E are those of a harmonic swing shifted as its lowest point is (SwingAverages). Good for Q of 100 and more,
-// where A is accurate to some 0.1 %; below kLeastQuality it misses the higher harmonics: integrate directly
+// V and E are those of the swing with its higher harmonics, whose loss to the air is in E, and which answer like a
+// spring (tapping/swing_shape.h); where a contact is so stiff that they find no shape, those of a harmonic swing
+// shifted as its lowest point is (SwingAverages). Good for Q of 100 and more; below kLeastQuality integrate directly
 // (physics/tapping/tapping_oscillator.h).
 //
 // One thread. Only the constructor, resting_at() and settle() allocate.
@@ -40,6 +44,7 @@ class AveragedFlow {
   static constexpr double kLeastQuality = 100.0;
 
   AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever);
+  ~AveragedFlow();
 
   // One step of the midpoint rule over the angle w0 dt with the base at `z`; keep it below 0.1 * 2Q.
   void step(TapState& state, Length z, double angle) noexcept;
@@ -58,10 +63,15 @@ class AveragedFlow {
   // A resting swing in full.
   RestingTap describe(const TapState& state, Length z) noexcept;
 
-  // Averages of a swing of this amplitude, shifted as its lowest point is. The reference is valid until the next call.
-  const SwingAverages& averages(Length amplitude, Length z) noexcept { return averages_at(amplitude.si, z.si); }
+  // Averages of a swing of this amplitude, to some 1e-4. The reference is valid until the next call.
+  const SwingAverages& averages(Length amplitude, Length z) noexcept;
 
-  // Every resting swing at `z`, the smallest amplitude first, stable or not.
+  // Energy that the newest of these swings loses beside its own to the air: in the sample, and by its harmonics to the
+  // air. E of the equations above.
+  Energy lost() const noexcept;
+
+  // Every resting swing at `z`, the smallest amplitude first, stable or not; also that of a tip that sticks to the
+  // sample.
   std::vector<RestingTap> resting_at(Length z);
 
   const DrivenLever& lever() const noexcept { return lever_; }
@@ -70,8 +80,10 @@ class AveragedFlow {
   struct Rate {
     double amplitude, phase;  // per w0 t
   };
-  // Averages of the swing with its shift, which is searched from that of the previous call.
-  const SwingAverages& averages_at(double amplitude, double z) noexcept;
+  // Averages of the swing with its shift and shape, which are searched from those of the previous call.
+  const SwingAverages& averages_at(double amplitude, double z, double coarseness = 1.0) noexcept;
+  bool bent_averages_at(double amplitude, double z, double coarseness) noexcept;  // false: no shape was found
+  void straight_averages_at(double amplitude, double z) noexcept;
   Rate rate(const TapState& state, double z) noexcept;
   // The flow about a swing, to first order.
   struct Linear {
@@ -95,6 +107,7 @@ class AveragedFlow {
   std::vector<Sample> samples_at(double z);  // from the highest down
   RestingTap root_between(Sample one, Sample other, double z) noexcept;
   Sample turn_between(const Sample& left, const Sample& middle, const Sample& right, double z) noexcept;
+  std::optional<RestingTap> stuck_at(double z) noexcept;
   double amplitude_at_lowest(double lowest, double z) noexcept;
   double sine_of_rest(double amplitude) const noexcept;
   double cosine_of_rest(double amplitude) const noexcept;
@@ -102,7 +115,8 @@ class AveragedFlow {
   std::shared_ptr<const TapSurface> surface_;
   DrivenLever lever_;
   double k_, a_, r_, q_;
-  double shift_ = 0.0;  // shift of the lowest point in the previous swing
+  std::unique_ptr<SwingShape> shape_;  // bend of the previous swing
+  double shift_ = 0.0;                 // shift of the lowest point in the previous swing
   SwingAverages averages_;
 };
 

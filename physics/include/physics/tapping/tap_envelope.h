@@ -76,7 +76,7 @@ class TapEnvelope {
     float virial = 0, lost = 0;
   };
   struct Forces {
-    float peak = 0, mean = 0;
+    float peak = 0, mean = 0, lost = 0;  // lost in the sample alone
   };
   struct Tables {
     std::vector<Moving> moving;

@@ -12,7 +12,10 @@
 
 namespace afm::physics {
 
-// One swing of the tip: height = centre - amplitude cos(angle), with its lowest point at angle 0.
+class SwingShape;
+
+// One swing of the tip: height = centre - amplitude cos(angle), and its bend if it has one, with its lowest point at
+// angle 0.
 struct TapSwing {
   Length amplitude;     // A, zero-to-peak
   Length centre;        // mean height of the tip
@@ -47,8 +50,8 @@ class TapSurface {
   TapSurface(Law law, const ContactParameters& contact, const LawOptions& options = {},
              Viscosity viscosity = Viscosity());
 
-  // From the law's tables, accurate to 1e-8 of the force.
-  SwingAverages averages(const TapSwing& swing) const noexcept;
+  // From the law's tables, accurate to 1e-8 of the force. A bend of the swing learns the forces.
+  SwingAverages averages(const TapSwing& swing, SwingShape* shape = nullptr) const noexcept;
 
   // The same from the law itself: to 1e-11, but some twenty times as long.
   SwingAverages exact_averages(const TapSwing& swing) const;
