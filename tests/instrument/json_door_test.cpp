@@ -186,7 +186,8 @@ TEST_F(JsonDoorTest, GivesATappingCurve) {
   EXPECT_NEAR(answer["amplitude_m"][0].get<double>(), 2e-8, 1e-9);
   EXPECT_TRUE(answer["figures"].contains("jumps"));
   const json usual = answer_to(R"({"do": "tapping_curve", "points": 11})");
-  EXPECT_EQ(usual["z_m"].size(), 22U) << "also between the usual heights";
+  EXPECT_GE(usual["z_m"].size(), 22U) << "also between the usual heights, with those of jumps";
+  EXPECT_LE(usual["z_m"].size(), 30U);
   EXPECT_NEAR(usual["z_m"][0].get<double>(), 22e-9, 1e-15);
 }
 
