@@ -291,10 +291,10 @@ core::Result<curves::TappingRun> SimulatedInstrument::tapping_curve(const std::o
                                                                     std::size_t points) {
   const auto swung = driven();
   if (!swung) return tl::unexpected(swung.error());
-  curves::PathOptions path = path_of(z_from_m, z_to_m);
-  if (z_from_m && z_to_m && *z_from_m > *z_to_m) {
-    path.step = metres((*z_from_m - *z_to_m) / static_cast<double>(points - 1) * (1.0 + 1e-12));
-  }
+  const curves::UsualTapPath usual = curves::usual_tap_path(physics::Length(settings_.free_amplitude_m));
+  const double from_m = z_from_m.value_or(usual.from.si), to_m = z_to_m.value_or(usual.to.si);
+  curves::PathOptions path = path_of(from_m, to_m);
+  if (from_m > to_m) path.step = metres((from_m - to_m) / static_cast<double>(points - 1) * (1.0 + 1e-12));
   return curves::run_tapping(swung->setup, path, swung->numbers);
 }
 

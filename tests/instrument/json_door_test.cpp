@@ -185,6 +185,10 @@ TEST_F(JsonDoorTest, GivesATappingCurve) {
   EXPECT_EQ(answer["amplitude_m"].size(), answer["phase_rad"].size());
   EXPECT_NEAR(answer["amplitude_m"][0].get<double>(), 2e-8, 1e-9);
   EXPECT_TRUE(answer["figures"].contains("jumps"));
+  const json usual = answer_to(R"({"do": "tapping_curve", "points": 11})");
+  EXPECT_GE(usual["z_m"].size(), 22U) << "also between the usual heights, with those of jumps";
+  EXPECT_LE(usual["z_m"].size(), 30U);
+  EXPECT_NEAR(usual["z_m"][0].get<double>(), 22e-9, 1e-15);
 }
 
 TEST_F(JsonDoorTest, StreamsAnImageOfASwing) {

@@ -22,7 +22,7 @@ namespace nanonis_functions_test {
 struct Call {
   std::string_view name;
   std::string_view arguments;
-  std::string_view results;  // of a long answer the beginning
+  std::string_view results;  // all, or the beginning and "..."
   std::size_t blank;         // bytes of zeros in place of the results of a call that is refused
 };
 

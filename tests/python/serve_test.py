@@ -153,6 +153,8 @@ class Serve(unittest.TestCase):
     def test_says_why_a_server_does_not_start(self):
         with self.assertRaisesRegex(serve.Refused, "no such folder"):
             serve.start(out=os.path.join(self.folder.name, "none"))
+        with self.assertRaisesRegex(serve.Refused, "--seed: \"-1\" is negative"):
+            serve.start(seed=-1)
 
 
 if __name__ == "__main__":

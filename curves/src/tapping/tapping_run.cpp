@@ -116,8 +116,8 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
     run.states = states_at(surface, run.lever, run.method, *at);
     return {};
   }
-  const physics::Length a0 = run.lever.free_amplitude;
-  const auto plan = read_plan(path, a0 + std::max(physics::Length(2e-9), 0.1 * a0), 0.1 * a0);
+  const auto [from, to] = usual_tap_path(run.lever.free_amplitude);
+  const auto plan = read_plan(path, from, to);
   if (!plan) return tl::unexpected(plan.error());
   run.path.plan = *plan;
   if (!path.speed.empty()) {
@@ -169,6 +169,10 @@ core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, c
 }
 
 }  // namespace
+
+UsualTapPath usual_tap_path(physics::Length free_amplitude) {
+  return {free_amplitude + std::max(physics::Length(2e-9), 0.1 * free_amplitude), 0.1 * free_amplitude};
+}
 
 core::Result<physics::SurfaceEnergy> work_of_adhesion_for(const ContactSetup& setup, physics::Length contact_gap) {
   const physics::ContactParameters& contact = setup.material.contact;

@@ -248,7 +248,8 @@ TEST(Generated, RefusesWhatIsUnphysical) {
   expect_refusal(gel + " --noise nanpN", "--noise: cannot read");
   expect_refusal(gel + " --noise -3pN", "is outside");
   expect_refusal(gel + " --noise 3", "it has no unit");
-  expect_refusal(gel + " --seed=-1", "--seed: cannot read \"-1\" as a number that it takes");
+  expect_refusal(gel + " --seed soon", "--seed: cannot read \"soon\" as a number that it takes");
+  expect_refusal(gel + " --seed=-1", "--seed: \"-1\" is negative");
   expect_refusal(gel + " --drift 0.9um/s", "faster than half the base's");
   expect_refusal("curve --modulus 3kPa --radius 5um --spring-constant 0.05N/m --most-force 1uN",
                  "more than its radius, where its paraboloid is no sphere");

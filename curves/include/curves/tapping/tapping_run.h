@@ -48,6 +48,12 @@ struct TappingRun {
   std::vector<TapStateRow> states;  // with `at`
 };
 
+// Heights between which a tapping curve goes unless others are given, for a free amplitude.
+struct UsualTapPath {
+  physics::Length from, to;
+};
+UsualTapPath usual_tap_path(physics::Length free_amplitude);
+
 // A curve of the frequency shift at constant amplitude, or its value at one height.
 struct FrequencyShiftRun {
   ContactSetup setup;
