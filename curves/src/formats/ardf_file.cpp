@@ -67,7 +67,7 @@ struct ArdfCurves::Array {
   std::array<std::uint32_t, kArdfSegments> begins{};
 
   std::size_t size() const { return floats.size() / sizeof(float); }
-  double at(std::size_t i) const { return number_at<float>(floats, i * sizeof(float)); }
+  double at(std::size_t i) const { return static_cast<double>(number_at<float>(floats, i * sizeof(float))); }
 };
 
 ArdfCurves::ArdfCurves(std::string_view bytes) : bytes_(bytes) {
