@@ -71,7 +71,8 @@ int nearest_root(const std::vector<RestingTap>& roots, const TapState& swing) {
 struct RestCase {
   TappedSample sample;
   Length z;
-  bool with_envelope;  // a table takes a second
+  bool with_envelope;         // a table takes a second
+  std::size_t elsewhere = 0;  // states that direct integration leaves
   struct Pair {
     TapState averaged, enveloped, direct;
   };
@@ -90,7 +91,11 @@ void rest(RestCase& one) {
     tip.place(one.z, roots[i].state);
     (void)tip.settle();
     const TapState direct = resting_tap(tip.settle()).state;
-    if (nearest_root(roots, direct) != static_cast<int>(i)) continue;  // another state
+    // another state, also one that is not among the roots
+    if (nearest_root(roots, direct) != static_cast<int>(i) || apart(direct, roots[i].state).degrees > 10.0) {
+      ++one.elsewhere;
+      continue;
+    }
     RestCase::Pair pair{roots[i].state, roots[i].state, direct};
     // for a hand a swing of less than a twentieth of the free one is stopped
     if (one.with_envelope && roots[i].state.amplitude > 0.05 * one.sample.lever().free_amplitude) {
@@ -111,12 +116,13 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
   for (int i = 0, count = deep() ? 200 : 4; i < count; ++i) {
     const TappedSample sample = random_tapped_sample(random);
     const Length z(sample.a0_nm * 1e-9 * random.between(0.3, 1.0));
-    cases.push_back({sample, z, i % 4 == 0});
+    cases.push_back({.sample = sample, .z = z, .with_envelope = i % 4 == 0});
   }
   run_all<RestCase>(cases, rest);
-  std::size_t compared = 0, outside = 0, outside_envelope = 0;
+  std::size_t compared = 0, elsewhere = 0, outside = 0, outside_envelope = 0;
   double most_share = 0.0, most_degrees = 0.0;
   for (const RestCase& one : cases) {
+    elsewhere += one.elsewhere;
     for (const RestCase::Pair& pair : one.pairs) {
       ++compared;
       const Apart flow = apart(pair.averaged, pair.direct), envelope = apart(pair.enveloped, pair.direct);
@@ -131,11 +137,13 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
     }
   }
   RecordProperty("compared", std::to_string(compared));
+  RecordProperty("elsewhere", std::to_string(elsewhere));
   RecordProperty("outside_flow", std::to_string(outside));
   RecordProperty("outside_envelope", std::to_string(outside_envelope));
   RecordProperty("most_share", std::to_string(most_share));
   RecordProperty("most_degrees", std::to_string(most_degrees));
   EXPECT_GE(compared, cases.size());
+  EXPECT_LE(elsewhere, compared / 20 + 1);
 }
 
 struct StartCase {
