@@ -11,6 +11,7 @@
 #include "app/bench/cluster_benchmarks.h"
 #include "app/bench/haptics_benchmarks.h"
 #include "app/bench/render_benchmarks.h"
+#include "app/bench/tapping_benchmarks.h"
 #include "app/options/command.h"
 #include "core/system_error.h"
 
@@ -44,6 +45,7 @@ void add_bench_command(OptionList& program, const CommandContext& context) {
   physics.add_flag("--json", *as_json, "print JSON with times in seconds instead of a table");
   physics.footer("example: touchafm bench physics --json");
   physics.when_chosen([as_json, &context] { return become_benchmarks(context.program_path, *as_json); });
+  add_tapping_benchmarks(bench, context);
   add_haptics_benchmarks(bench, context);
   add_render_benchmarks(bench, context);
   add_cluster_benchmarks(bench, context);
