@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/result.h"
-#include "haptics/contact/paid_force.h"
 #include "haptics/device.h"
 #include "haptics/energy_tank.h"
 #include "haptics/felt_friction.h"
@@ -34,6 +33,7 @@ namespace afm::haptics {
 class FeltMarks;
 class FeltParticles;
 class MapContact;
+class PaidForce;
 
 // Largest curvature that a surface of this material may have on this device, as limited by create(): where a surface
 // bends, a force on it acts as a lateral stiffness. `fit` is the scale of Fit.
@@ -187,13 +187,13 @@ class ContactModel {
   scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double slow_motion_;
   bool level_ = false;
-  double loop_m_ = 0;                    // height followed by the feedback
-  double residual_m_ = 0;                // felt part of the remaining height
-  EnergyTank tank_;                      // pays for the feedback's motion
-  std::optional<PaidForce> mean_force_;  // felt in place of the push of a lever that taps; empty: the push is felt
-  double mean_force_m_ = 0;              // height of the hand in the previous step of it
-  FeltParticles* particles_ = nullptr;   // those that the tip pushes, null: none
-  FeltMarks* marks_ = nullptr;           // the sample with marks below the tip instead, null: none
+  double loop_m_ = 0;                      // height followed by the feedback
+  double residual_m_ = 0;                  // felt part of the remaining height
+  EnergyTank tank_;                        // pays for the feedback's motion
+  std::unique_ptr<PaidForce> mean_force_;  // felt in place of the push of a lever that taps; null: the push is felt
+  double mean_force_m_ = 0;                // height of the hand in the previous step of it
+  FeltParticles* particles_ = nullptr;     // those that the tip pushes, null: none
+  FeltMarks* marks_ = nullptr;             // the sample with marks below the tip instead, null: none
   std::uint32_t edit_revision_;
 };
 

@@ -15,6 +15,7 @@
 
 #include "contact/felt_vibration.h"
 #include "core/enumerators.h"
+#include "haptics/contact/paid_force.h"
 #include "haptics/felt_marks.h"
 #include "haptics/felt_particles.h"
 #include "haptics/map_contact.h"
@@ -176,7 +177,7 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     auto contact = std::unique_ptr<ContactModel>(
         new ContactModel(std::move(model), std::move(felt_map), std::move(surface), std::move(friction), scalings,
                          std::move(stored_energies), std::move(tables), force_cap_n(device), edit_revision));
-    if (material.felt_mean_force != 0) contact->mean_force_.emplace();
+    if (material.felt_mean_force != 0) contact->mean_force_ = std::make_unique<PaidForce>();
     return contact;
   } catch (const std::exception& error) {
     return refusal(material, core::ErrorCategory::Failed, error.what());

@@ -294,7 +294,8 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
   if (!(stiffening > 0.0 && low + state.amplitude.si < release)) return std::nullopt;
   shift_ = low - z;
   shape_->straighten();
-  follow(state, Length(z));  // where the contact is not quite a spring
+  // the contact may be no spring
+  follow(state, Length(z));
   return describe(state, Length(z));
 }
 

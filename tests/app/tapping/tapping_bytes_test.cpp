@@ -97,7 +97,7 @@ TEST(TappingBytes, AreTheSameOnOneCoreAndOnAll) {
   for (const Output& output : kOutputs) {
     const std::string on_all = output.bytes();
     ASSERT_GT(on_all.size(), 200U) << output.name << ": " << on_all;
-    const OneCore one;  // on which a sweep has one thread
+    const OneCore one;  // one thread of a sweep
     EXPECT_TRUE(output.bytes() == on_all) << output.name;
   }
 }

@@ -63,7 +63,7 @@ TEST(FeltTapping, GivesAHandThatLoopsByItsMeanForceNoMoreThanTheEnergyTankHolds)
     RecordProperty("felt_mw" + at, std::to_string(1e3 * felt_j / kSeconds));
     EXPECT_LE(most_over_j, 1e-9) << loops_per_s;
     EXPECT_GT(felt_j, 0.01 * kSeconds) << "it is felt";
-    if (loops_per_s < 10.0) continue;  // less than the tank gets
+    if (loops_per_s < 10.0) continue;  // power below the tank's own
     EXPECT_GT(free_j, EnergyTank::kFullJ + EnergyTank::kRefillW * kSeconds) << "without the tank it would";
     EXPECT_LT(weakest, 0.9) << "the force fades";
   }
