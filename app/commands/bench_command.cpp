@@ -14,6 +14,7 @@
 #include "app/bench/cluster_benchmarks.h"
 #include "app/bench/haptics_benchmarks.h"
 #include "app/bench/render_benchmarks.h"
+#include "app/bench/tapping_benchmarks.h"
 #include "app/options/command.h"
 #include "core/system_error.h"
 
@@ -63,6 +64,7 @@ void add_bench_command(OptionList& program, const CommandContext& context) {
                        "measure the fit of a curve, with and without its interval, and of many on two threads",
                        "--fits");
   add_map_benchmark(bench);
+  add_tapping_benchmarks(bench, context);
   add_haptics_benchmarks(bench, context);
   add_render_benchmarks(bench, context);
   add_cluster_benchmarks(bench, context);

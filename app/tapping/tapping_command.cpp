@@ -132,6 +132,14 @@ void add_tapped_view_options(OptionList& command, curves::TappedHand& hand) {
                   "tapping: law of force, auto (by the Tabor parameter), hertz, dmt, jkr, maugis")
       .type_name("NAME")
       .show_default();
+  command
+      .add_option(
+          "--felt-force", hand.felt,
+          "tapping: what the hand feels: push, the lost amplitude; or mean, the mean force on the tip, as far as an "
+          "energy tank of 30 mJ and 50 mW pays for it")
+      .one_of({"push", "mean"})
+      .type_name("FORCE")
+      .show_default();
   add_felt_lever(command, hand, "; with --force-map, that of the lever that recorded it, instead of the file's");
 }
 

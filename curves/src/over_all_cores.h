@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include <algorithm>
 #include <atomic>
@@ -17,6 +18,13 @@
 
 namespace afm::curves {
 
+// Number of cores that this thread, and those that it starts, may use.
+inline unsigned usable_cores() {
+  cpu_set_t cores;
+  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return std::max(1U, std::thread::hardware_concurrency());
+  return static_cast<unsigned>(CPU_COUNT(&cores));
+}
+
 // Runs work(i) for every i below `count` on all cores, until a stop is requested. Logs the progress of a sweep that
 // takes longer than a second.
 template <class Work>
@@ -24,7 +32,7 @@ void over_all_cores(std::uint64_t count, const std::stop_token& stop, const Work
   std::atomic<std::uint64_t> next{0}, done{0};
   std::mutex mutex;
   std::condition_variable changed;
-  unsigned running = std::max(1U, std::thread::hardware_concurrency());
+  unsigned running = usable_cores();
   const auto run = [&] {
     for (std::uint64_t i; !stop.stop_requested() && (i = next.fetch_add(1)) < count; done.fetch_add(1)) work(i);
     const std::lock_guard lock(mutex);

@@ -37,6 +37,7 @@ scene::SharedContact parameters_of(const ContactSetup& setup) {
     shared.free_amplitude_m = setup.drive->free_amplitude.si;
     shared.drive_hz = setup.drive->frequency.si;
     shared.viscosity_pa_s = setup.drive->viscosity.si;
+    shared.felt_mean_force = setup.drive->mean_force ? 1 : 0;
   }
   return shared;
 }

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
+#include "exhibit/panels/data_panel.h"
 #include "support/phrases.h"
 #include "support/samples/tapped_sample.h"
 
@@ -131,6 +133,27 @@ TEST(SwingPanel, FollowsTheSampleAndTheHeight) {
       EXPECT_TRUE(kept.curves == fresh.curves) << z_nm;
     }
   }
+}
+
+// The panel of the sample names the mean force where that is felt, and the tank that pays for it.
+TEST(DataPanel, NamesTheMeanForceThatIsFeltOfALeverThatTaps) {
+  curves::TappedHand hand = test::tapped_hand();
+  const auto rows_of_felt = [&] {
+    const auto model = curves::make_sample_model(curves::tapped_setup(sample().setup.material, hand).value()).value();
+    const render::DataPanel panel = data_panel(model, {}, test::english());
+    return std::count_if(panel.rows.begin(), panel.rows.end(), [](const render::DataRow& row) {
+      return row.value == "mean force on the tip" && row.source.find("30 mJ and 50 mW") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(rows_of_felt(), 0);
+  hand.felt = "mean";
+  EXPECT_EQ(rows_of_felt(), 1);
+  hand.choice.mode = "contact";
+  hand.model = "auto";
+  hand.values.clear();
+  const auto refused = curves::check_contact_mode(hand);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "--felt-force has no effect on --mode contact; add --mode tapping");
 }
 
 }  // namespace swing_panel_test

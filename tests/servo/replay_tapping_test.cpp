@@ -68,6 +68,35 @@ TEST(Replay, GivesASwingAgain) {
   expect_same(*loaded);
 }
 
+// The mean force in place of the push: pulled on the way down, pushed below the jump.
+TEST(Replay, GivesTheFeltMeanForceOfASwingAgain) {
+  auto model = tapped_model();
+  model.materials[test::kMica].felt_mean_force = 1;
+  Recording recording(model);
+  recording.choose(test::kMica);
+  recording.arm();
+  recording.aim(0.002, 2.0);
+  recording.run(2400);
+  recording.aim(0.065, 2.0);
+  recording.run(2400);
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("tapping.afms");
+  ASSERT_TRUE(save_session(recording.sessions.front(), path));
+  const auto loaded = load_session(path);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->parameters.felt_mean_force, 1U);
+  ASSERT_NE(loaded->find(physics::EventKind::JumpToRepulsion), nullptr);
+  double pull_n = 0.0, push_n = 0.0;
+  for (const scene::TipSample& sample : loaded->samples) {
+    if (sample.servo_state != scene::ServoState::Running) continue;
+    pull_n = std::min(pull_n, sample.hand_force_n);
+    push_n = std::max(push_n, sample.hand_force_n);
+  }
+  EXPECT_LT(pull_n, -0.1);
+  EXPECT_GT(push_n, 0.1);
+  expect_same(*loaded);
+}
+
 TEST(Replay, RefusesASwingThatNoHandCanFeel) {
   auto model = tapped_model();
   model.materials[test::kMica].lever.quality_factor = 2500.0;

@@ -38,6 +38,7 @@ struct FeltDrive {
   physics::Length free_amplitude;  // A0, zero-to-peak
   physics::Frequency frequency;
   physics::Viscosity viscosity;  // viscosity under the tip
+  bool mean_force = false;       // felt in place of the push, behind an energy tank
 };
 
 // One tip, lever, sample and medium, and the model for its curve.

@@ -64,6 +64,7 @@ core::Result<void> check_contact_mode(const TappedHand& hand) {
     return wrong_usage(fmt::format("--{} has no effect on --mode {}; add --mode tapping", option, hand.choice.mode));
   };
   if (hand.model != "auto") return useless("model");
+  if (hand.felt != "push") return useless("felt-force");
   for (const auto& [option, text] : hand.values) {
     if (!text.empty()) return useless(option);
   }
@@ -99,7 +100,8 @@ core::Result<ContactSetup> tapped_setup(const scene::MaterialEntry& entry, const
   }
   setup.drive = FeltDrive{.free_amplitude = driven->lever.free_amplitude,
                           .frequency = driven->lever.ratio * driven->lever.resonance,
-                          .viscosity = driven->viscosity};
+                          .viscosity = driven->viscosity,
+                          .mean_force = hand.felt == "mean"};
   return setup;
 }
 

@@ -11,6 +11,7 @@
 #include "curves/plot_units.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/signed_text.h"
+#include "haptics/energy_tank.h"
 #include "panels/panel_conventions.h"
 #include "physics/quantity_text.h"
 
@@ -132,6 +133,12 @@ render::DataPanel data_panel(const curves::SampleModel& material, const scene::T
   panel.rows.push_back({phrases[Phrase::ForceOnTip],
                         phrases.number(signed_text(tip.force_n * curves::kNnPerN, 3, "nN")),
                         bend_text(tip.deflection_m, phrases)});
+  if (material.parameters.felt_mean_force != 0) {
+    panel.rows.push_back(
+        {phrases[Phrase::FeltForce], phrases[Phrase::FeltMeanForce],
+         phrases.text<Phrase::FeltBehindTank>(fmt::format("{:.0f} mJ", haptics::EnergyTank::kFullJ * 1e3),
+                                              fmt::format("{:.0f} mW", haptics::EnergyTank::kRefillW * 1e3))});
+  }
   for (render::DataRow& each : panel.rows) each.detail = true;
   panel.details = false;
   return panel;

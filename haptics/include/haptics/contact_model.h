@@ -33,6 +33,7 @@ namespace afm::haptics {
 class FeltMarks;
 class FeltParticles;
 class MapContact;
+class PaidForce;
 
 // Largest curvature that a surface of this material may have on this device, as limited by create(): where a surface
 // bends, a force on it acts as a lateral stiffness. `fit` is the scale of Fit.
@@ -107,7 +108,8 @@ struct Touch {
 // room that the other forces leave below the force cap.
 //
 // A lever that taps is felt by its push, not by its mean force, which would give energy to the hand. The energy that
-// the push gives because it follows the hand late is excess energy for the passivity observer.
+// the push gives because it follows the hand late is excess energy for the passivity observer. With
+// SharedContact::felt_mean_force the mean force is felt instead, as a PaidForce; not under a scan's feedback.
 //
 // create() takes milliseconds (on a topography or with a lever that taps, tenths of a second) and allocates; everything
 // else may be called in a tick of the servo.
@@ -164,7 +166,8 @@ class ContactModel {
   Touch step_marks(const glm::dvec3& hand_m, const ScanFeedback& feedback) noexcept;
   PassivityObserver::Law marks_energy(const Touch& touch) const noexcept;
   physics::TipResponse step_law(physics::Length z) noexcept;
-  double felt_force_n(Touch& touch) const noexcept;
+  double felt_force_n(Touch& touch, double elapsed_s) noexcept;
+  bool feels_mean_force() const noexcept { return mean_force_ && !level_; }
   bool may_change_level(double hand_z_m, double height_m, const ScanFeedback& feedback) const noexcept;
   void follow_surface(double hand_z_m, double height_m, const ScanFeedback& feedback, Touch& touch) noexcept;
   void meet_particles(const glm::dvec2& slope, const ScanFeedback& feedback, Touch& touch) noexcept;
@@ -184,11 +187,13 @@ class ContactModel {
   scene::ScaleMode mode_ = scene::ScaleMode::Fit;
   double slow_motion_;
   bool level_ = false;
-  double loop_m_ = 0;                   // height followed by the feedback
-  double residual_m_ = 0;               // felt part of the remaining height
-  EnergyTank tank_;                     // pays for the feedback's motion
-  FeltParticles* particles_ = nullptr;  // those that the tip pushes, null: none
-  FeltMarks* marks_ = nullptr;          // the sample with marks below the tip instead, null: none
+  double loop_m_ = 0;                      // height followed by the feedback
+  double residual_m_ = 0;                  // felt part of the remaining height
+  EnergyTank tank_;                        // pays for the feedback's motion
+  std::unique_ptr<PaidForce> mean_force_;  // felt in place of the push of a lever that taps; null: the push is felt
+  double mean_force_m_ = 0;                // height of the hand in the previous step of it
+  FeltParticles* particles_ = nullptr;     // those that the tip pushes, null: none
+  FeltMarks* marks_ = nullptr;             // the sample with marks below the tip instead, null: none
   std::uint32_t edit_revision_;
 };
 

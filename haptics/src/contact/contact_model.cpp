@@ -15,6 +15,7 @@
 
 #include "contact/felt_vibration.h"
 #include "core/enumerators.h"
+#include "haptics/contact/paid_force.h"
 #include "haptics/felt_marks.h"
 #include "haptics/felt_particles.h"
 #include "haptics/map_contact.h"
@@ -173,9 +174,11 @@ core::Result<std::unique_ptr<ContactModel>> ContactModel::create(
     if (material.friction.law != physics::FrictionLaw::None) friction.emplace(material, tables, device);
     StoredEnergies stored_energies;
     for (const Scaling& scaling : scalings) stored_energies.push_back(stored_energy_of(*tables, scaling, device));
-    return std::unique_ptr<ContactModel>(new ContactModel(std::move(model), std::move(felt_map), std::move(surface),
-                                                          std::move(friction), scalings, std::move(stored_energies),
-                                                          std::move(tables), force_cap_n(device), edit_revision));
+    auto contact = std::unique_ptr<ContactModel>(
+        new ContactModel(std::move(model), std::move(felt_map), std::move(surface), std::move(friction), scalings,
+                         std::move(stored_energies), std::move(tables), force_cap_n(device), edit_revision));
+    if (material.felt_mean_force != 0) contact->mean_force_ = std::make_unique<PaidForce>();
+    return contact;
   } catch (const std::exception& error) {
     return refusal(material, core::ErrorCategory::Failed, error.what());
   }
@@ -225,7 +228,7 @@ Touch ContactModel::step(const glm::dvec3& hand_m, const ScanFeedback& feedback)
   touch.response = map_ ? touch.map.response : step_law(physics::Length(touch.z_m));
   touch.normal = glm::normalize(glm::dvec3(-below.slope, 1.0));
   const glm::dvec3 gradient(-below.slope * scale.flattening(), 1.0);
-  touch.hand_force_n = felt_force_n(touch) * gradient;
+  touch.hand_force_n = felt_force_n(touch, feedback.elapsed_s) * gradient;
   if (map_) {
     touch.hand_force_n += glm::dvec3(touch.map.sideways_n, 0.0);
     const double room_n = force_cap_n_ - glm::length(touch.hand_force_n);
@@ -313,13 +316,21 @@ physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
 }
 
 // Along the sample's normal, on the hand.
-double ContactModel::felt_force_n(Touch& touch) const noexcept {
+double ContactModel::felt_force_n(Touch& touch, double elapsed_s) noexcept {
   if (map_) return touch.map.force_n;
   const auto* tapping = std::get_if<physics::TappingModel>(&model_);
   if (tapping == nullptr) return scaling().hand_force_n(touch.response.force.si);
-  if (tapping->phase() == physics::Phase::WaitForLift) return scaling().hand_force_n(0.0);
+  if (tapping->phase() == physics::Phase::WaitForLift) {
+    if (mean_force_) mean_force_->forget();
+    return scaling().hand_force_n(0.0);
+  }
   touch.swing = {.amplitude_m = tapping->amplitude().si, .phase_rad = tapping->phase_lag()};
-  return scaling().hand_force_n(tapping->push().si);
+  if (!feels_mean_force()) {
+    if (mean_force_) mean_force_->forget();
+    return scaling().hand_force_n(tapping->push().si);
+  }
+  const double before_m = std::exchange(mean_force_m_, scaling().hand_height_m(touch.z_m));
+  return mean_force_->step(scaling().hand_force_n(touch.response.force.si), mean_force_m_ - before_m, elapsed_s);
 }
 
 void ContactModel::wait_for_lift() noexcept {
@@ -348,6 +359,10 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
     law.stored_j = attached_j(touch, touch.z_m);
   } else {
     law.stored_j = stored_energy().at(touch.response.phase, scaling().hand_height_m(touch.z_m));
+  }
+  if (feels_mean_force()) {
+    law.stored_j = mean_force_->lent_j();
+    law.given_j = mean_force_->paid_j();
   }
   if (friction_) {
     law.stored_j += friction_->stored_j(scaling());

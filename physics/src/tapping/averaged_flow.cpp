@@ -120,15 +120,15 @@ double AveragedFlow::imbalance(double amplitude, double z) noexcept {
 
 RestingTap AveragedFlow::describe(const TapState& state, Length z) noexcept {
   RestingTap tap{.state = state, .deflection = {}, .averages = {}, .stable = linear(state, z.si).stable()};
-  tap.averages = averages_at(state.amplitude.si, z.si);
+  tap.averages = averages_;
   tap.deflection = tap.averages.mean / lever_.spring_constant;
   return tap;
 }
 
 AveragedFlow::Linear AveragedFlow::linear(const TapState& state, double z) noexcept {
   const double amplitude = std::max(state.amplitude.si, kLeastAmplitude), length = 1e-6 * amplitude;
-  const Rate here = rate(state, z);
   const Rate longer = rate({Length(amplitude + length), state.phase}, z);
+  const Rate here = rate(state, z);  // the newest averages
   return {.rate = here,
           .amplitude_by_amplitude = (longer.amplitude - here.amplitude) / length,
           .amplitude_by_phase = a_ / (2.0 * r_) * std::cos(state.phase),
@@ -290,10 +290,12 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
   const double step = 1e-5 * (release - low);
   const double stiffening = (force(low - step) - force(low + step)) / (2.0 * step * k_);
   const double spring = 1.0 - r_ * r_ + stiffening, damping = r_ / q_;
-  const TapState state{Length(a_ / std::hypot(spring, damping)), std::atan2(damping, spring)};
+  TapState state{Length(a_ / std::hypot(spring, damping)), std::atan2(damping, spring)};
   if (!(stiffening > 0.0 && low + state.amplitude.si < release)) return std::nullopt;
   shift_ = low - z;
   shape_->straighten();
+  // the contact may be no spring
+  follow(state, Length(z));
   return describe(state, Length(z));
 }
 

@@ -3,23 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace afm::physics {
 
 double SwingShape::bend(double angle) const noexcept {
   if (old_count_ == 0) return 0.0;
+  const Nodes& old = nodes_[1 - filling_];
   // a quadrature asks in order
-  while (cursor_ > 0 && old_[cursor_ - 1].angle >= angle) --cursor_;
-  while (cursor_ < old_count_ && old_[cursor_].angle < angle) ++cursor_;
-  if (cursor_ == old_count_) return old_[old_count_ - 1].bend;
-  const Node& right = old_[cursor_];
+  while (cursor_ > 0 && old[cursor_ - 1].angle >= angle) --cursor_;
+  while (cursor_ < old_count_ && old[cursor_].angle < angle) ++cursor_;
+  if (cursor_ == old_count_) return old[old_count_ - 1].bend;
+  const Node& right = old[cursor_];
   if (cursor_ == 0) {
     // a parabola from the lowest point
     const double share = angle / right.angle;
     return right.bend * share * share;
   }
-  const Node& left = old_[cursor_ - 1];
+  const Node& left = old[cursor_ - 1];
   return left.bend + (angle - left.angle) / (right.angle - left.angle) * (right.bend - left.bend);
 }
 
@@ -29,26 +29,27 @@ void SwingShape::straighten() noexcept {
 }
 
 double SwingShape::finish() noexcept {
+  Nodes& newest = nodes_[filling_];
   // the branches of a latch overlap
   const auto before = [](const Node& a, const Node& b) { return a.angle < b.angle; };
-  const auto end = new_.begin() + static_cast<std::ptrdiff_t>(count_);
-  if (!std::is_sorted(new_.begin(), end, before)) std::sort(new_.begin(), end, before);
+  const auto end = newest.begin() + static_cast<std::ptrdiff_t>(count_);
+  if (!std::is_sorted(newest.begin(), end, before)) std::sort(newest.begin(), end, before);
   double p = 0.0, c = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
-    p += new_[i].force * (std::numbers::pi - new_[i].angle) * new_[i].sine;
-    c += new_[i].force * new_[i].cosine;
+    p += newest[i].force * (std::numbers::pi - newest[i].angle) * newest[i].sine;
+    c += newest[i].force * newest[i].cosine;
   }
   const double p_more = p - p_, c_more = c - c_, scale = 1.0 / (2.0 * std::numbers::pi * k_);
   double weight = 0.0, square = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
-    const Node& node = new_[i];
+    const Node& node = newest[i];
     const double more = scale * ((2.0 * p_more - c_more) * (node.cosine - 1.0) - 2.0 * c_more * node.angle * node.sine);
     weight += std::abs(node.force);
     square += std::abs(node.force) * more * more;
   }
   p_ = p;
   c_ = c;
-  std::swap(old_, new_);
+  filling_ = 1 - filling_;
   old_count_ = count_;
   cursor_ = 0;
   return weight > 0.0 ? std::sqrt(square / weight) : 0.0;

@@ -50,7 +50,7 @@ class SwingShape {
     rate_squares_ += weight * rate * rate;
     cosine_before_ += weight * force * cosine;
     sine_before_ += weight * force * sine;
-    new_[count_++] = {angle, cosine, sine, weight * force, bend};
+    nodes_[filling_][count_++] = {angle, cosine, sine, weight * force, bend};
   }
 
   // Mean square of dy/dt over the newest quadrature, in m^2: half of the sum of n^2 A_n^2 over the harmonics n > 1.
@@ -71,7 +71,8 @@ class SwingShape {
   double p_ = 0.0, c_ = 0.0;
   double cosine_before_ = 0.0, sine_before_ = 0.0;  // integrals of F cos(t), F sin(t) up to the newest node
   double rate_squares_ = 0.0;                       // integral of (dy/dt)^2 up to it
-  Nodes old_, new_;
+  std::array<Nodes, 2> nodes_;
+  std::size_t filling_ = 0;  // the newer quadrature; the other one is complete
   std::size_t old_count_ = 0, count_ = 0;
   mutable std::size_t cursor_ = 0;
 };

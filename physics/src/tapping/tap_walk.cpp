@@ -5,17 +5,21 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 namespace afm::physics {
 namespace {
 
-// From rest at one height to rest at another, along the branch as far as it goes.
-void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve) {
+// From rest at one height to rest at another, along the branch as far as it goes. `follows`: the swing is known to rest
+// on a branch, before and after.
+void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
+                  bool& follows) {
   constexpr double kFoldError = 1e-18;   // m
   constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
   const double way = to.si - from.si;
   TapState here = state;
-  if (!flow.follow(here, from)) {  // not at rest: a swing that hovers where contact begins
+  const bool known = std::exchange(follows, false);
+  if (!known && !flow.follow(here, from)) {  // not at rest: a swing that hovers where contact begins
     state = flow.settle(state, to).state;
     return;
   }
@@ -45,6 +49,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
       return;
     }
   }
+  follows = true;
 }
 
 // The height at which the phase passes that of the free lever for the first time, with the states about one relaxation
@@ -119,9 +124,10 @@ void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch,
 void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
                  Length least) {
   const auto& [branch, heights] = direction;
+  bool follows = false;
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
-    if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve);
+    if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, follows);
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
   }
 }

@@ -190,6 +190,9 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   if (!(material.free_amplitude_m >= 0.0 && material.viscosity_pa_s >= 0.0)) {
     return model_refused("its swing is not a valid one");
   }
+  if (material.felt_mean_force > (taps(material) ? 1U : 0U)) {
+    return model_refused("the mean force of a lever that does not tap cannot be felt");
+  }
   if (taps(material) && (material.dynamic != 0 || material.friction.law != physics::FrictionLaw::None ||
                          !physics::has_dynamics(material.law))) {
     return model_refused(fmt::format("the law {} cannot be tapped on", physics::name_of(material.law)));

@@ -88,7 +88,7 @@ TEST(TappingScanCommand, NamesWhatEachPassWas) {
     options.settings.emplace_back(field, si);
   };
   set("integral-gain", 500.0);
-  set("rate", 5.0);
+  set("rate", 10.0);
   options.pixels = 32;
   const auto scan = imaging::take_scan(options);
   ASSERT_TRUE(scan) << scan.error().message;

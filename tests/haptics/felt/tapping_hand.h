@@ -99,7 +99,7 @@ class TappingHand {
       observer_.integrate({.moved_m = {0.0, 0.0, moved_m},
                            .wanted_n = {0.0, 0.0, push_n_},
                            .commanded_n = {0.0, 0.0, damped_n},
-                           .stored_rise_j = law.stored_j - stored_j_,
+                           .stored_rise_j = law.stored_j - law.given_j - stored_j_,
                            .stiffness_n_per_m = law.stiffness_n_per_m});
     }
     given.most_excess_j = std::max(given.most_excess_j, observer_.excess_j());

@@ -192,7 +192,7 @@ TEST(TappingScan, AFlippedStateIsAFalseStepOnFlatGround) {
     EXPECT_NEAR(above.phase_deg - below.phase_deg, row.turn_deg, 0.2) << row.setpoint_nm;
   }
   const HeldState attractive = held(18.0, true), repulsive = held(18.0, false);
-  EXPECT_NEAR(repulsive.z_nm - attractive.z_nm, -1.480, 0.003);
+  EXPECT_NEAR(repulsive.z_nm - attractive.z_nm, -1.4876, 0.003);
   TappingDetector detector = detector_at(18.0);
   ScanLoop loop(ideal(50.0), Time(kTickS), 1, detector);
   loop.engage(0.0);

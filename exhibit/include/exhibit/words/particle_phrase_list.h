@@ -132,6 +132,9 @@
   PHRASE(SwingAttractive, "swing-attractive", "", kLine)              \
   PHRASE(SwingRepulsive, "swing-repulsive", "", kLine)                \
   PHRASE(SwingFree, "swing-free", "", kLine)                          \
+  PHRASE(FeltForce, "felt-force", "", kLine)                          \
+  PHRASE(FeltMeanForce, "felt-mean-force", "", kLine)                 \
+  PHRASE(FeltBehindTank, "felt-behind-tank", "joules watts", kLine)   \
   PHRASE(DialTitle, "dial-title", "", kLine)                          \
   PHRASE(DialBoth, "dial-both", "", kLine)                            \
   PHRASE(DialOne, "dial-one", "", kLine)                              \
