@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "python/errors.h"
+
 namespace afm::python {
 
 namespace py = pybind11;
