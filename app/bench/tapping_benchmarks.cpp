@@ -217,7 +217,7 @@ core::Result<std::vector<TappingFigure>> measure(const CommandContext& context, 
   return figures;
 }
 
-std::string text_of(double seconds) {
+std::string time_text(double seconds) {
   return seconds < 1e-3 ? fmt::format("{:.3g} us", 1e6 * seconds) : fmt::format("{:.3g} s", seconds);
 }
 
@@ -226,8 +226,8 @@ std::string tapping_table(const std::vector<TappingFigure>& figures) {
       fmt::format("{:<39}{:>10}  {:<45}{:>10}{:>9}{:>8}  met\n", "", "", "against", "", "ratio", "limit");
   for (const TappingFigure& each : figures) {
     const bool timed = each.against.empty();
-    text += fmt::format("{:<39}{:>10}  {:<45}{:>10}{:>9}{:>8}  {}\n", each.name, text_of(each.seconds),
-                        timed ? "a time" : each.against, timed ? text_of(each.limit) : text_of(each.against_s),
+    text += fmt::format("{:<39}{:>10}  {:<45}{:>10}{:>9}{:>8}  {}\n", each.name, time_text(each.seconds),
+                        timed ? "a time" : each.against, timed ? time_text(each.limit) : time_text(each.against_s),
                         fmt::format("{:.3g}", timed ? each.seconds / each.limit : each.ratio()),
                         timed ? "1" : fmt::format("{:g}", each.limit), each.met() ? "yes" : "no");
   }
