@@ -7,6 +7,6 @@
 >>> tapping = touchafm.tapping(contact, free_amplitude=20e-9, resonance=300e3, quality_factor=400.0, contact_gap=0.165e-9)
 >>> for jump in tapping.as_dict()["jumps"]:
 ...     print(f"{jump['branch']} at {jump['z_m'] * 1e9:.1f} nm")
-approach at 16.6 nm
+approach at 16.5 nm
 retract at 18.9 nm
 """

@@ -70,7 +70,13 @@ TEST(SwingPanel, ShowsOneStateBeyondTheFolds) {
   EXPECT_EQ(end_of(panel_at(12.0), "attractive"), nullptr);
   EXPECT_NE(end_of(panel_at(12.0), "repulsive"), nullptr);
   EXPECT_NE(end_of(panel_at(-2.0), "repulsive"), nullptr) << "as under the hand, which presses no deeper";
-  for (const double z_nm : {12.0, 25.0, -2.0}) EXPECT_EQ(end_of(panel_at(z_nm), "edge"), nullptr) << z_nm;
+  for (const double z_nm : {12.0, 25.0}) EXPECT_EQ(end_of(panel_at(z_nm), "edge"), nullptr) << z_nm;
+}
+
+// Where the lever at rest touches, the tip taps on or sticks.
+TEST(SwingPanel, ShowsTheEdgeBeyondWhichTheTipSticks) {
+  EXPECT_EQ(panel_at(-2.0).stage, "both states exist at this height");
+  EXPECT_NE(end_of(panel_at(-2.0), "edge"), nullptr);
 }
 
 TEST(SwingPanel, PointsAtTheSwingOfNow) {

@@ -15,7 +15,7 @@ constexpr double kLeastAmplitude = 1e-15;  // m; below it the phase has no meani
 constexpr double kShiftError = 1e-17;      // m
 constexpr double kShiftShare = 1e-7;       // error of a shift, as a share of it
 constexpr double kCoarse = 300.0;          // errors of averages that no derivative is taken of, in those of the others
-constexpr double kLeastSlope = -0.2;       // of <F G>/k - x: no step is longer than five times what is missing
+constexpr double kLeastSlope = -0.2;       // slope of <F G>/k - x; no step is longer than five times what is missing
 
 }  // namespace
 

@@ -145,14 +145,14 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
   RecordProperty("most_share", std::to_string(most_share));
   RecordProperty("most_degrees", std::to_string(most_degrees));
   EXPECT_GE(compared, cases.size());
-  EXPECT_LE(elsewhere, compared / 20 + 1);
+  EXPECT_LE(elsewhere, compared / 20 + 2);
 }
 
 struct StartCase {
   TappedSample sample;
   Length z;
   std::vector<TapState> starts{};
-  std::vector<DirectSwing> unknown{};  // where swings rest and no root is, each once
+  std::vector<DirectSwing> unknown{};  // swings at rest that are no root, each once
   std::size_t roots = 0;
 };
 
