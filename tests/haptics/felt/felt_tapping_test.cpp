@@ -101,8 +101,8 @@ TEST(FeltTapping, IsFeltOnGoldDownToTheSurface) {
   gold.contact.hamaker = physics::Energy(120e-21);
   gold.contact.mean_surface_energy = physics::SurfaceEnergy(15.915e-3);
   gold.contact.reduced_modulus = physics::Pressure(71.4e9);
+  TappingHand hand(gold);
   for (const double speed_m_per_s : {0.01, 0.1, 0.3}) {
-    TappingHand hand(gold);
     Given given;
     hand.rest_at(24.0);
     hand.move_to(0.0, speed_m_per_s, given);
