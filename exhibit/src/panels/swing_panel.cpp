@@ -104,8 +104,8 @@ const physics::TapPortrait& SwingDial::portrait(const curves::SampleModel& model
     tables_ = model.tables;
     height_.reset();
   }
-  // under the hand the base goes no deeper than the lever at rest would touch
-  const auto height = static_cast<std::int64_t>(std::ceil(std::max(z_m, surface_->contact_height().si) / step_m));
+  // under the hand the base goes no deeper
+  const auto height = static_cast<std::int64_t>(std::ceil(std::max(z_m, model.tables->pressed_to.si) / step_m));
   if (height_ == height) return portrait_;
   height_ = height;
   const physics::Length z(static_cast<double>(height) * step_m);

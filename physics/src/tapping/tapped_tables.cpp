@@ -22,7 +22,7 @@ constexpr std::size_t kNodes = 1200;        // nodes in a branch
 constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
 constexpr double kSteepestFall = 4.0;       // change of the amplitude with Z, as a hand feels it
 constexpr double kFaintReduction = 0.02;    // share of the free amplitude
-constexpr double kStopped = 0.01;           // share of the free amplitude, the least in the table of TapEnvelope
+constexpr double kStopped = 0.1;            // share of the free amplitude; with less, a tip may stick
 constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
 
 Length height_of(int index, Length from, Length to) {
@@ -177,6 +177,7 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
   tables.contact = surface->contact();
   tables.contact_gap = surface->zero_of_indentation();
   tables.tapped_full = tap_push(lever, Length());
+  tables.pressed_to = tables.taps ? floor : std::max(floor, walk.down.back().z);
   CycleFigures& figures = tables.figures;
   figures.hysteretic = walk.hysteretic();
   if (figures.hysteretic) {
@@ -194,7 +195,6 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
   figures.tip_height_before_jtc = figures.tip_height_after_jtc = figures.z_jtc;
   figures.tip_height_before_joc = figures.tip_height_after_joc = figures.z_joc;
   figures.critical_stiffness = Stiffness(HUGE_VAL);
-
   if (tables.taps) {
     put_felt_branches(*tables.taps, floor, from, tables);
   } else {

@@ -32,7 +32,7 @@ TappingModel::TappingModel(const std::shared_ptr<const TapSurface>& surface, con
                            std::shared_ptr<const LawTables> tables, Time tick_period)
     : tables_(std::move(tables)),
       envelope_(std::make_unique<TapEnvelope>(envelope_of(surface, lever, *tables_))),
-      floor_(surface->contact_height()) {
+      floor_(tables_->pressed_to) {
   const double whole = lever.angular_resonance() * tick_period.si;
   angle_ = envelope_->at_rest_only() ? whole : std::min(whole, kMostSteps * TapEnvelope::longest_step(lever));
   slow_motion_ = whole / angle_;
@@ -65,6 +65,9 @@ bool TappingModel::passes_free_phase(Length before, Length after, double fractio
   }
   previous_attraction_ = attraction;
   if (phase_ != Phase::Attached) return attraction < -kClearState;
+  // below the fold on the way down, where only the repulsive state is, a nearly stopped swing may be attracted on
+  // average
+  if (tables_->figures.hysteretic && after < tables_->figures.z_jtc) return false;
   return attraction > kClearState || (after >= tables_->figures.z_joc && attraction > -kClearState);
 }
 

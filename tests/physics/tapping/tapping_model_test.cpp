@@ -224,7 +224,7 @@ TEST(TappingModel, RestsOnAStiffSampleAndJumpsOnce) {
     tapped.model.wait_for_lift();
     (void)tapped.model.step(24_nm);
     move(tapped.model, 24.0, 20.0, nm_per_tick, path);
-    for (const double z_nm : {16.0, 10.0, 5.0, 2.0}) {
+    for (const double z_nm : {16.0, 10.0, 5.0, 2.5}) {
       move(tapped.model, z_nm + 4.0, z_nm, nm_per_tick, path);
       for (int i = 0; i < 300; ++i) (void)tapped.model.step(Length(z_nm * 1e-9));
       double rest_nm = 0.0;

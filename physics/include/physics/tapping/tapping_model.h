@@ -28,10 +28,11 @@ inline constexpr Time kLongestFeltRelaxation{2e-3};
 Force tap_push(const DrivenLever& lever, Length amplitude) noexcept;
 
 // P of both branches over Z, as a slow hand meets them; its jumps are the folds. Without jumps the branches meet where
-// the mean swing is neither attracted nor repelled, or never. Below the first height at which the resting lever would
-// touch, P stays constant. By the averaged flow, or below its least Q (AveragedFlow::kLeastQuality) by direct
-// integration (physics/tapping/tap_table.h). Throws UnphysicalValue unless the relaxation is at most
-// kLongestFeltRelaxation. Takes tenths of a second, by direct integration some seconds, and allocates.
+// the mean swing is neither attracted nor repelled, or never. Below LawTables::pressed_to, where a tenth of the free
+// amplitude is left, P stays constant: a tip that swings less may stick, and would push more on the way up. By the
+// averaged flow, or below its least Q (AveragedFlow::kLeastQuality) by direct integration
+// (physics/tapping/tap_table.h). Throws UnphysicalValue unless the relaxation is at most kLongestFeltRelaxation. Takes
+// tenths of a second, by direct integration some seconds, and allocates.
 std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_ptr<const TapSurface>& surface,
                                                    const DrivenLever& lever);
 
@@ -81,7 +82,7 @@ class TappingModel {
   double angle_ = 0;  // w0 t of a step
   double slow_motion_ = 1;
   Phase phase_ = Phase::WaitForLift;
-  Length floor_;  // lowest base that moves the swing: below, the averages have no meaning
+  Length floor_;  // lowest base that moves the swing, LawTables::pressed_to
   Length previous_z_, crossed_z_;
   Force push_, previous_mean_, older_mean_;
   double previous_attraction_ = 0, crossed_fraction_ = 1;
