@@ -45,6 +45,7 @@ bool names_unknown_command(int count, char** arguments) {
 
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
+  names.reserve(std::size(kCommands));
   for (const Command& command : kCommands) names.emplace_back(command.name);
   return names;
 }

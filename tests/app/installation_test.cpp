@@ -199,7 +199,8 @@ TEST_F(Completion, OffersCommands) {
   std::vector<std::string> all;
   for (const Command& command : kCommands) all.emplace_back(command.name);
   EXPECT_THAT(offered({"touchafm", ""}), ::testing::ElementsAreArray(all));
-  EXPECT_THAT(offered({"touchafm", "bench", ""}), ElementsAre("physics", "fits", "maps", "tapping", "haptics", "render", "cluster"));
+  EXPECT_THAT(offered({"touchafm", "bench", ""}),
+              ElementsAre("physics", "fits", "maps", "tapping", "haptics", "render", "cluster"));
 }
 
 TEST_F(Completion, OffersEveryOptionOfACommandAndNoOther) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "scene/shared/shared_segment.h"
 #include "scene/shared/soft_blocks.h"
 #include "session_records.h"
 
