@@ -117,7 +117,7 @@ TEST(JumpCue, KeepsTheForceOfTheJumpWhileTheTipMovesOn) {
   EXPECT_EQ(cue_text(cues.at(2'800'000'000).value(), test::english()), "pull-off \u221210.00 nN");
 }
 
-// A lever that taps has the ring, and with it the pulse of a headset's controller, of its own two jumps.
+// Both jumps of a tapping lever have the ring, which also triggers the pulse of a headset's controller.
 TEST(JumpCue, IsThatOfALeverThatTapsToo) {
   using enum physics::EventKind;
   scene::TipEvent in = event(JumpToRepulsion, 1'000'000'000), out = event(JumpToAttraction, 2'000'000'000);

@@ -30,14 +30,19 @@ scene::SharedModel tapped_model() {
   return model;
 }
 
-TEST(Replay, GivesASwingAgain) {
-  Recording recording(tapped_model());
+// Down through the jump and up again.
+void tap_once(Recording& recording) {
   recording.choose(test::kMica);
   recording.arm();
   recording.aim(0.002, 2.0);
   recording.run(2400);
   recording.aim(0.065, 2.0);
   recording.run(2400);
+}
+
+TEST(Replay, GivesASwingAgain) {
+  Recording recording(tapped_model());
+  tap_once(recording);
   const support::ScratchFolder folder;
   const std::string path = folder.file("tapping.afms");
   ASSERT_TRUE(save_session(recording.sessions.front(), path));
@@ -73,12 +78,7 @@ TEST(Replay, GivesTheFeltMeanForceOfASwingAgain) {
   auto model = tapped_model();
   model.materials[test::kMica].felt_mean_force = 1;
   Recording recording(model);
-  recording.choose(test::kMica);
-  recording.arm();
-  recording.aim(0.002, 2.0);
-  recording.run(2400);
-  recording.aim(0.065, 2.0);
-  recording.run(2400);
+  tap_once(recording);
   const support::ScratchFolder folder;
   const std::string path = folder.file("tapping.afms");
   ASSERT_TRUE(save_session(recording.sessions.front(), path));

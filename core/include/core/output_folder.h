@@ -32,7 +32,7 @@ class OutputFolder {
   Result<void> commit();
 
   // The same where no file is replaced: WrongUsage if one of the names exists. A failure moves back what was moved, so
-  // that all files appear or none. A longer name comes first: whoever sees FILE also sees FILE.truth.json.
+  // that all files appear or none. The longest name appears first, so that FILE is never there without FILE.truth.json.
   Result<void> commit_new();
 
  private:

@@ -27,7 +27,7 @@ struct ArdfSection {
 // is empty, or a wrong checksum.
 ArdfSection ardf_section(std::string_view file, std::uint64_t offset, std::string_view wanted = {});
 
-// A section of 32 bytes with a table behind it: entries of `stride` bytes, each with a head of its own.
+// A section of 32 bytes and the table that follows it. Each entry has `stride` bytes and its own header.
 struct ArdfTable {
   std::vector<ArdfSection> entries;  // those in use; the rest of the table is zero
   std::size_t end = 0;               // in the file

@@ -56,7 +56,7 @@ class SwingShape {
   // Mean square of dy/dt over the newest quadrature, in m^2: half of the sum of n^2 A_n^2 over the harmonics n > 1.
   double mean_square_rate() const noexcept { return rate_squares_ / std::numbers::pi; }
 
-  // How far the bend of this quadrature was from that of its own P and C, weighted by the force, in m.
+  // Error of the bend: its difference from the one that the resulting P and C give, weighted by the force, in m.
   double finish() noexcept;
 
  private:
