@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -15,15 +14,12 @@
 #include "answer_arrays.h"
 #include "arguments.h"
 #include "core/printable.h"
-#include "core/whole_file.h"
 #include "core/written_by.h"
 #include "curves/curve_output.h"
-#include "curves/curve_series.h"
-#include "curves/image_output.h"
-#include "curves/recorded_curve.h"
 #include "curves/tapping/tapping_output.h"
+#include "fits/thermal_fit.h"
 #include "instrument/simulated_instrument.h"
-#include "physics/imaging/scan_image.h"
+#include "kept_results.h"
 #include "refused_request.h"
 
 namespace afm::instrument {
@@ -65,33 +61,7 @@ Json position_json(const SimulatedInstrument& instrument) {
   return {{"x_m", at.x_m}, {"y_m", at.y_m}, {"z_m", at.z_m}, {"engaged", at.engaged}};
 }
 
-// A name within the folder and nothing else.
-std::string file_name_of(Arguments& arguments) {
-  constexpr std::size_t kMostLetters = 100;
-  const auto name = arguments.text("file", kMostLetters);
-  const bool plain =
-      name && !name->empty() && name->front() != '.' && std::all_of(name->begin(), name->end(), [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' ||
-               c == '_';
-      });
-  if (!plain) throw RefusedRequest("\"file\": give a name of letters, digits, \"-\", \"_\" and \".\"");
-  return *name;
-}
-
 }  // namespace
-
-// A curve, converted only to be saved.
-struct JsonDoor::TakenCurve : SimulatedInstrument::Curve {
-  explicit TakenCurve(SimulatedInstrument::Curve curve) : Curve(std::move(curve)) {}
-
-  // As a microscope would keep it: with what its detector shows, and without the numbers that it cannot know.
-  curves::RecordedCurve recorded() const {
-    curves::RecordedCurve kept = curves::recorded_curve(run);
-    kept.metadata.parameters.clear();
-    for (std::size_t i = 0; i < kept.points.size(); ++i) kept.points[i].force = physics::Force(shown_n.at(i));
-    return kept;
-  }
-};
 
 // One function a verb: takes its arguments and returns the members of the answer.
 struct JsonDoor::Verbs {
@@ -100,7 +70,7 @@ struct JsonDoor::Verbs {
     std::string_view meaning;
     Json (*run)(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send);
   };
-  static const std::array<Row, 15> kRows;
+  static const std::array<Row, 16> kRows;
 
   static Json hello(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     constexpr double kMostSeed = 9007199254740992.0;  // largest whole number that every JSON library keeps
@@ -109,8 +79,7 @@ struct JsonDoor::Verbs {
     arguments.finish();
     if (seed) {
       value_of(door.instrument_.reset(static_cast<std::uint64_t>(*seed)));
-      door.image_.reset();
-      door.curve_.reset();
+      door.results_->forget();
     }
     Json verbs = Json::object();
     for (const Row& row : kRows) verbs[std::string(row.name)] = row.meaning;
@@ -162,6 +131,17 @@ struct JsonDoor::Verbs {
     return position_json(door.instrument_);
   }
 
+  static Json set_z(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+    const auto z_m = arguments.number("z_m", -kMostPlaceM, kMostPlaceM);
+    const double speed = speed_of(arguments);
+    arguments.finish();
+    if (!z_m) throw RefusedRequest("\"z_m\": give the height of the lever's base above the sample's mean level, in m");
+    value_of(door.instrument_.set_z(*z_m, speed));
+    Json answer = position_json(door.instrument_);
+    answer["force_N"] = door.instrument_.shown_force();
+    return answer;
+  }
+
   static Json wait(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
     const auto time_s = arguments.number("time_s", 0.0, kMostWaitS);
     arguments.finish();
@@ -187,7 +167,7 @@ struct JsonDoor::Verbs {
                 {"force_N", arrays.of(curve.shown_n)},
                 {"approach_points", turn - samples.begin()},
                 {"spring_constant_N_per_m", curve.run.setup.material.contact.spring_constant.si}};
-    door.curve_ = std::make_unique<const TakenCurve>(std::move(curve));
+    door.results_->keep(std::move(curve.run), std::move(curve.shown_n));
     return answer;
   }
 
@@ -257,7 +237,7 @@ struct JsonDoor::Verbs {
     if (stopped) answer["stopped"] = true;
     if (door.instrument_.settings().taps) answer["conventions"] = curves::tapping_conventions();
     image.metadata = image_metadata(door.instrument_.settings());
-    door.image_ = std::make_unique<const physics::ScanImage>(std::move(image));
+    door.results_->keep(std::move(image));
     return answer;
   }
 
@@ -291,25 +271,11 @@ struct JsonDoor::Verbs {
   }
 
   static Json save(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
-    const std::string name = file_name_of(arguments);
+    constexpr std::size_t kMostLetters = 100;
+    const std::string name = arguments.text("file", kMostLetters).value_or("");
     arguments.finish();
-    if (door.folder_.empty()) throw RefusedRequest("no folder was given; start touchafm serve with --out DIR");
-    const std::string path = (std::filesystem::path(door.folder_) / name).string();
-    std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) throw RefusedRequest("there is already a file " + name);
-    if (const auto format = curves::image_format(name)) {
-      if (!door.image_) throw RefusedRequest("there is no image yet; \"scan\" first");
-      value_of(core::write_file(path, *format == curves::ImageFormat::Gsf ? curves::gsf_bytes(*door.image_, 0)
-                                                                          : curves::gwy_bytes(*door.image_)));
-      return {{"file", name}};
-    }
-    if (const auto format = curves::writable_format_of(name)) {
-      if (!door.curve_) throw RefusedRequest("there is no curve yet; \"curve\" first");
-      value_of(
-          core::write_file(path, value_of(curves::series_bytes(format->format, std::array{door.curve_->recorded()}))));
-      return {{"file", name}};
-    }
-    throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5, .tab or .csv for the newest curve");
+    door.results_->save(name);
+    return {{"file", name}};
   }
 
   static Json quit(JsonDoor&, Arguments& arguments, const Json&, const Send&) {
@@ -323,13 +289,14 @@ struct JsonDoor::Verbs {
   }
 };
 
-constexpr std::array<JsonDoor::Verbs::Row, 15> JsonDoor::Verbs::kRows{{
+constexpr std::array<JsonDoor::Verbs::Row, 16> JsonDoor::Verbs::kRows{{
     {"hello", "names the program; \"seed\" starts anew", &Verbs::hello},
     {"get", "every setting and where the tip is", &Verbs::get},
     {"set", "changes settings, all or none: \"values\"", &Verbs::set},
     {"approach", "lowers the tip until the setpoint is reached: \"speed_m_per_s\"", &Verbs::approach},
     {"withdraw", "lifts the tip: \"distance_m\", \"speed_m_per_s\"", &Verbs::withdraw},
     {"move", "goes to another place: \"x_m\", \"y_m\", \"speed_m_per_s\"", &Verbs::move},
+    {"set_z", "moves the lever's base without feedback: \"z_m\", \"speed_m_per_s\"", &Verbs::set_z},
     {"wait", "lets simulated time pass: \"time_s\"", &Verbs::wait},
     {"curve", "a force curve: \"z_from_m\", \"z_to_m\", \"points\", \"speed_m_per_s\"", &Verbs::curve},
     {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"",
@@ -343,7 +310,7 @@ constexpr std::array<JsonDoor::Verbs::Row, 15> JsonDoor::Verbs::kRows{{
 }};
 
 JsonDoor::JsonDoor(SimulatedInstrument& instrument, std::string folder)
-    : instrument_(instrument), folder_(std::move(folder)) {}
+    : instrument_(instrument), results_(std::make_unique<KeptResults>(std::move(folder))) {}
 JsonDoor::~JsonDoor() = default;
 
 std::optional<std::size_t> JsonDoor::request_size(std::string_view bytes) const {

@@ -46,13 +46,12 @@ struct NanonisDoor::Functions {
     value_of(door.instrument_.change(settings));
   }
 
-  static float signal(const NanonisDoor& door, std::int32_t index) {
+  static float signal(NanonisDoor& door, std::int32_t index) {
     if (index < 0 || index >= kSignals) throw RefusedRequest(fmt::format("there is no signal {}", index));
     const SimulatedInstrument::Position& at = door.instrument_.position();
-    const double setpoint_n = door.instrument_.settings().scan.setpoint.si;
     switch (index) {
       case 1:
-        return static_cast<float>(door.instrument_.truth().touching ? setpoint_n : 0.0);
+        return static_cast<float>(door.instrument_.shown_force());
       case 24:
         return door.bias_v_;
       case 27:
@@ -108,9 +107,7 @@ struct NanonisDoor::Functions {
   static void z_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double z_m = within("z", in.real(), -kMostPlaceM, kMostPlaceM);
     if (door.feedback_) throw RefusedRequest("the Z controller is on; switch it off first");
-    const double above_m = z_m - door.instrument_.position().z_m;
-    if (above_m < 0.0) throw RefusedRequest("this microscope lowers its tip by its Z controller alone");
-    door.instrument_.withdraw(above_m, kApproachSpeedM);
+    value_of(door.instrument_.set_z(z_m, kApproachSpeedM));
   }
   static void on_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     out.add(std::uint32_t{door.feedback_ ? 1U : 0U});

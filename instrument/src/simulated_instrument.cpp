@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "curves/tapping/driven_setup.h"
+#include "fits/thermal_fit.h"
 #include "instrument/showcase.h"
 #include "physics/flexural_modes.h"
 #include "physics/imaging/scan_artefact.h"
@@ -22,8 +23,7 @@ namespace {
 
 using core::wrong_usage;
 
-constexpr double kStartAboveM = 1e-6;    // height of the tip at the start
-constexpr double kFalseAboveM = 100e-9;  // highest false engagement above the sample
+constexpr double kStartAboveM = 1e-6;  // height of the tip at the start
 constexpr double kGrowthThatIsSeen =
     0.02;  // relative growth of the tip from which the image's surface is computed anew
 
@@ -62,8 +62,9 @@ void SimulatedInstrument::show_in(Showcase& showcase) {
 
 void SimulatedInstrument::show_place() const {
   if (showcase_ == nullptr) return;
-  const double surface_m = surface_below(), force_n = touching_ && !settings_.taps ? settings_.scan.setpoint.si : 0.0;
-  showcase_->put_place(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_, surface_m, at_.z_m - surface_m, force_n, touching_);
+  const double surface_m = surface_below();
+  showcase_->put_place(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_, surface_m, at_.z_m - surface_m, force_n(),
+                       touching_);
 }
 
 core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
@@ -72,11 +73,11 @@ core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
   settings.contact.material = "mica";
   settings_ = {};
   surface_radius_m_ = 0.0;
+  at_ = {.z_m = kStartAboveM};
+  touching_ = second_apex_ = false;
   if (const auto built = build(settings, 0.0); !built) return built;
   growth_m_ = drift_x_m_ = drift_y_m_ = highest_force_n_ = 0.0;
   state_flips_ = 0;
-  touching_ = second_apex_ = false;
-  at_ = {.z_m = kStartAboveM};
   chance_.seed(seed);
   noise_ = physics::NormalGenerator(seed);
   show_place();
@@ -119,7 +120,9 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
   settings_ = settings;
   setup_ = std::move(*setup);
   usual_path_.reset();
+  base_.reset();
   growth_m_ = growth_m;
+  if (!at_.engaged && touching_) follow_base();
   if (showcase_ != nullptr) showcase_->put_contact(setup_);
   show_place();
   return {};
@@ -158,38 +161,6 @@ void SimulatedInstrument::pass(double time_s) noexcept {
   at_.time_s += time_s;
   drift_x_m_ += time_s * settings_.scan.drift_x.si;
   drift_y_m_ += time_s * settings_.scan.drift_y.si;
-}
-
-void SimulatedInstrument::wait(double time_s) noexcept { pass(time_s); }
-
-void SimulatedInstrument::approach(double speed_m_per_s) {
-  const bool false_alarm = uniform() < settings_.faults.false_engagement;
-  const double above_m = false_alarm ? kFalseAboveM * (1.0 - uniform()) : 0.0;
-  // the lever is bent by the setpoint, or swings above the sample, which is taken as rigid, as the scanner takes it
-  const double bend_m = settings_.taps ? -settings_.amplitude_setpoint * settings_.free_amplitude_m
-                                       : settings_.scan.setpoint.si / setup_.material.contact.spring_constant.si;
-  const double z_m = surface_below() + above_m - (false_alarm ? 0.0 : bend_m);
-  pass(std::abs(at_.z_m - z_m) / speed_m_per_s);
-  at_.z_m = z_m;
-  at_.engaged = true;
-  touching_ = !false_alarm;
-  show_place();
-}
-
-void SimulatedInstrument::withdraw(double distance_m, double speed_m_per_s) {
-  pass(distance_m / speed_m_per_s);
-  at_.z_m += distance_m;
-  at_.engaged = touching_ = false;
-  show_place();
-}
-
-void SimulatedInstrument::move_to(double x_m, double y_m, double speed_m_per_s) {
-  const double before_m = surface_below();
-  pass(std::hypot(x_m - at_.x_m, y_m - at_.y_m) / speed_m_per_s);
-  at_.x_m = x_m;
-  at_.y_m = y_m;
-  if (touching_) at_.z_m += surface_below() - before_m;  // the feedback follows
-  show_place();
 }
 
 core::Result<void> SimulatedInstrument::wear(double force_n) {
@@ -243,15 +214,11 @@ core::Result<SimulatedInstrument::Curve> SimulatedInstrument::take_curve(const C
   auto run = curves::run_curve(setup_, path);
   if (!run) return tl::unexpected(run.error());
   Curve result{std::move(*run), {}};
-  const Faults& faults = settings_.faults;
   double highest_n = 0.0;
   result.shown_n.reserve(result.run.curve.samples.size());
   for (const physics::CurveSample& sample : result.run.curve.samples) {
     highest_n = std::max(highest_n, sample.force.si);
-    double shown_n = sample.force.si;
-    if (faults.force_noise_n > 0.0) shown_n += faults.force_noise_n * noise_();
-    if (faults.detector_range_n > 0.0) shown_n = std::clamp(shown_n, -faults.detector_range_n, faults.detector_range_n);
-    result.shown_n.push_back(shown_n);
+    result.shown_n.push_back(shown(sample.force.si));
   }
   pass(2.0 * length_m / request.speed_m_per_s);
   if (const auto worn = wear(highest_n); !worn) return tl::unexpected(worn.error());
@@ -326,7 +293,7 @@ core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken
 }
 
 core::Result<physics::ScanImage> SimulatedInstrument::take_image(const TakeLine& taken) {
-  if (!at_.engaged) return wrong_usage("the tip is withdrawn; \"approach\" first");
+  if (!at_.engaged) return wrong_usage("the feedback does not hold the tip; \"approach\" first");
   const Frame size = frame();
   physics::ScanArea area;
   area.width = physics::Length(size.width_m);

@@ -168,6 +168,11 @@ class Client:
         """Lifts the tip by a distance, m, at a speed, m/s: "z_m" and "engaged"."""
         return self.request("withdraw", distance_m=distance, speed_m_per_s=speed)
 
+    def set_z(self, z: float, speed: Optional[float] = None) -> dict[str, Any]:
+        """Moves the lever's base to a height above the sample's mean level, m, at a speed, m/s, with the feedback off: the tip follows its
+        law at rest, with both jumps. "z_m", "engaged" and "force_N", the force that the detector shows, N."""
+        return self.request("set_z", z_m=z, speed_m_per_s=speed)
+
     def move(self, x: float, y: float, speed: Optional[float] = None) -> dict[str, Any]:
         """Goes to another place of the sample, m, at a speed, m/s."""
         return self.request("move", x_m=x, y_m=y, speed_m_per_s=speed)

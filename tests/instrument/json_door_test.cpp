@@ -57,7 +57,7 @@ TEST_F(JsonDoorTest, SaysWhoItIsAndWhatItCanDo) {
   EXPECT_EQ(answer["ok"], true);
   EXPECT_EQ(answer["software"], "TouchAFM");
   EXPECT_EQ(answer["protocol"], 1);
-  EXPECT_EQ(answer["verbs"].size(), 15U);
+  EXPECT_EQ(answer["verbs"].size(), 16U);
 }
 
 TEST_F(JsonDoorTest, TakesBackEverySettingThatItLists) {
@@ -87,6 +87,17 @@ TEST_F(JsonDoorTest, RefusesAPartOfAPixelLineOrSeed) {
   EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"lines": 0.5}})"), HasSubstr("\"lines\": give a whole number"));
   EXPECT_THAT(refusal_of(R"({"do": "hello", "seed": 1.5})"), HasSubstr("\"seed\": give a whole number"));
   EXPECT_EQ(answer_to(R"({"do": "set", "values": {"pixels": 32.0}})")["ok"], true);
+}
+
+TEST_F(JsonDoorTest, MovesTheBaseWithoutFeedback) {
+  EXPECT_THAT(refusal_of(R"({"do": "set_z"})"), HasSubstr("\"z_m\": give the height"));
+  EXPECT_THAT(refusal_of(R"({"do": "set_z", "z_m": 1})"), HasSubstr("\"z_m\""));
+  answer_to(R"({"do": "approach"})");
+  const json pressed = answer_to(R"({"do": "set_z", "z_m": -1e-7, "speed_m_per_s": 1e-6})");
+  EXPECT_EQ(pressed["z_m"], -1e-7);
+  EXPECT_EQ(pressed["engaged"], false);
+  EXPECT_GT(pressed["force_N"], 9e-9);
+  EXPECT_EQ(answer_to(R"({"do": "truth"})")["touching"], true);
 }
 
 TEST_F(JsonDoorTest, StreamsAnImageLineByLine) {

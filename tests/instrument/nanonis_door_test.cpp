@@ -211,6 +211,24 @@ TEST_F(NanonisDoorTest, ApproachesAndWithdraws) {
   EXPECT_EQ(NanonisReader(results_of("ZCtrl.OnOffGet")).read<std::uint32_t>(), 0U);
 }
 
+// What clients do for a force curve: feedback off, heights one by one, and the signal of the force
+TEST_F(NanonisDoorTest, TakesAForceCurveHeightByHeight) {
+  const auto force_at = [this](float z_m) {
+    results_of("ZCtrl.ZPosSet", NanonisWriter().add(z_m));
+    return NanonisReader(results_of("Signals.ValGet", NanonisWriter().add(std::int32_t{1}).add(1U))).read<float>();
+  };
+  EXPECT_THAT(error_of("ZCtrl.ZPosSet", NanonisWriter().add(0.0F)), HasSubstr("switch it off"));
+  results_of("ZCtrl.OnOffSet", NanonisWriter().add(0U));
+  // between both jumps of mica, at 2.4 and 14.4 nm
+  const float pushed = force_at(-100e-9F), released = force_at(10e-9F), far = force_at(900e-9F),
+              back = force_at(10e-9F);
+  EXPECT_GT(pushed, 9e-9F);
+  EXPECT_LT(released, -0.5e-9F) << "adhesion";
+  EXPECT_NEAR(far, 0.0F, 1e-12F);
+  EXPECT_GT(back, 0.1F * released) << "not in contact again";
+  EXPECT_EQ(force_at(-100e-9F), pushed);
+}
+
 TEST_F(NanonisDoorTest, KeepsWhatIsSet) {
   results_of("ZCtrl.SetpntSet", NanonisWriter().add(1e-9F));
   EXPECT_FLOAT_EQ(NanonisReader(results_of("ZCtrl.SetpntGet")).read<float>(), 1e-9F);

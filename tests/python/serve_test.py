@@ -42,6 +42,15 @@ class Serve(unittest.TestCase):
         np.testing.assert_allclose(curve["force"], cycle.force, atol=1e-15)
         np.testing.assert_array_equal(curve["approach"], cycle.approach)
 
+    def test_takes_a_cycle_height_by_height(self):
+        self.afm.set(flat=True)
+        cycle = touchafm.cycle(touchafm.Contact.material("mica"), z_from=100e-9, z_to=-20e-9, step=1e-9)
+        heights = np.concatenate([np.arange(100, -21, -1), np.arange(-20, 101)]) * 1e-9
+        forces = [self.afm.set_z(z)["force_N"] for z in heights]
+        down = cycle.approach & np.isin(np.round(cycle.z * 1e12), np.round(heights * 1e12))
+        np.testing.assert_allclose(forces[:121], cycle.force[down][:121], atol=1e-13)
+        self.assertLess(min(forces[121:]), 1.5 * min(forces[:121]))
+
     def test_scans_and_saves(self):
         self.afm.set(pixels=16, size_m=np.float64(20e-9))
         self.assertTrue(self.afm.approach()["engaged"])

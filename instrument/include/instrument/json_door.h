@@ -9,12 +9,9 @@
 
 #include "instrument/door.h"
 
-namespace afm::physics {
-struct ScanImage;
-}
-
 namespace afm::instrument {
 
+class KeptResults;
 class SimulatedInstrument;
 
 // Requests to an instrument and their answers, one JSON object a line (docs/serve.md).
@@ -33,12 +30,9 @@ class JsonDoor final : public Door {
 
  private:
   struct Verbs;
-  struct TakenCurve;
 
   SimulatedInstrument& instrument_;
-  std::string folder_;
-  std::unique_ptr<const physics::ScanImage> image_;  // newest, for "save"
-  std::unique_ptr<const TakenCurve> curve_;          // newest, for "save"
+  std::unique_ptr<KeptResults> results_;
 };
 
 }  // namespace afm::instrument

@@ -13,10 +13,14 @@
 #include "core/result.h"
 #include "curves/curve_run.h"
 #include "curves/tapping/tapping_run.h"
-#include "fits/thermal_fit.h"
+#include "instrument/held_base.h"
 #include "instrument/instrument_settings.h"
 #include "physics/imaging/scanner.h"
 #include "physics/normal_generator.h"
+
+namespace afm::fits {
+struct SpectrumPoint;
+}
 
 namespace afm::instrument {
 
@@ -45,7 +49,15 @@ class SimulatedInstrument {
   void approach(double speed_m_per_s);
   void withdraw(double distance_m, double speed_m_per_s);
   void move_to(double x_m, double y_m, double speed_m_per_s);
-  void wait(double time_s) noexcept;
+  void wait(double time_s);
+
+  // Moves the lever's base to a height above the mean level of the sample, with the feedback off: the tip follows its
+  // law, at rest, with both jumps. In tapping mode only upwards. WrongUsage, without a change, for a lever that taps,
+  // and if the tip would wear beyond what its law allows.
+  core::Result<void> set_z(double z_m, double speed_m_per_s);
+
+  // Force of the sample on the tip as the detector shows it; the setpoint while the feedback keeps it.
+  double shown_force();
 
   struct Position {
     double x_m = 0, y_m = 0;
@@ -113,6 +125,11 @@ class SimulatedInstrument {
   double surface_below() const;
   double uniform();
   void pass(double time_s) noexcept;
+  HeldBase* base();
+  void release();
+  void follow_base();
+  double force_n() const;
+  double shown(double force_n);
   void show_place() const;
   core::Result<void> wear(double force_n);
   core::Result<Curve> take_curve(const CurveRequest& request);
@@ -138,6 +155,7 @@ class SimulatedInstrument {
   std::size_t state_flips_ = 0;
   bool touching_ = false, second_apex_ = false;
   Position at_;
+  std::optional<HeldBase> base_;  // its path without feedback; empty: not needed yet
   std::mt19937_64 chance_;
   physics::NormalGenerator noise_;
   Showcase* showcase_ = nullptr;  // null: not shown
