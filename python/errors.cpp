@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "core/printable.h"
 #include "python/bindings.h"
 
 namespace afm::python {
@@ -19,7 +20,8 @@ void add_errors(py::module_& module) {
       if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const Refusal& refusal) {
       const bool usage = refusal.category() == core::ErrorCategory::WrongUsage;
-      PyErr_SetString(usage ? PyExc_ValueError : file_error.ptr(), refusal.what());
+      // a name may hold bytes that are no UTF-8
+      PyErr_SetString(usage ? PyExc_ValueError : file_error.ptr(), core::printable(refusal.what()).c_str());
     }
   });
 }

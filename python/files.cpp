@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/printable.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
 #include "python/arrays.h"
@@ -185,7 +186,8 @@ void add_curve(py::module_& module) {
            "another that touchafm curve --help names. FileError if it cannot be written.")
       .def("__len__", [](const Curve& self) { return self.recorded.points.size(); })
       .def("__repr__", [](const Curve& self) {
-        return fmt::format("<touchafm.Curve {}, {} points>", self.name, self.recorded.points.size());
+        return fmt::format("<touchafm.Curve {}, {} points>", core::printable_line(self.name),
+                           self.recorded.points.size());
       });
   module.def("read", &read, py::arg("path"), py::kw_only(), py::arg("spring_constant") = py::none(),
              py::arg("sensitivity") = py::none(), py::arg("columns") = py::none(),

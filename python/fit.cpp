@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/printable.h"
 #include "curves/curve_report.h"
 #include "curves/fitting/curve_fit.h"
 #include "python/arrays.h"
@@ -135,7 +136,9 @@ void add_analysis(py::module_& module) {
       .def(
           "as_dict", [](const AnalysedCurve& self) { return dict_of(curves::features_json(self, nullptr)); },
           "The JSON of touchafm analyse --json.")
-      .def("__repr__", [](const AnalysedCurve& self) { return fmt::format("<touchafm.Analysis of {}>", self.name); });
+      .def("__repr__", [](const AnalysedCurve& self) {
+        return fmt::format("<touchafm.Analysis of {}>", core::printable_line(self.name));
+      });
   module.def("analyse", &analyse, py::arg("curve"), py::kw_only(), py::arg("contact_point") = py::none(),
              "Figures of a curve, as touchafm analyse finds them. contact_point: name of a method instead of the\n"
              "analysis's choice. FileError if the curve cannot be analysed, ValueError for an unknown method.\n"

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/json_text.h"
 #include "core/whole_file.h"
 #include "curves/angle_units.h"
 #include "curves/image_output.h"
@@ -229,7 +230,7 @@ void add_scan_class(py::module_& module) {
       .def("write", &write_scan, py::arg("path"), py::kw_only(), py::arg("channel") = "",
            "Writes .gwy with every channel, or .gsf with one, whole or not at all. FileError if it cannot be written.")
       .def(
-          "as_dict", [](const Scan& self) { return dict_of_text(imaging::scan_json(self).dump()); },
+          "as_dict", [](const Scan& self) { return dict_of_text(core::json_text(imaging::scan_json(self))); },
           "The JSON of touchafm scan --json: settings and figures of every channel.")
       .def("__repr__", [](const Scan& self) {
         return fmt::format("<touchafm.Scan {} x {}, {:.4g} m>", self.image.columns, self.image.rows,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -25,6 +26,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "core/file_kind.h"
+#include "core/json_text.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
 #include "curves/curve_file.h"
@@ -90,15 +92,22 @@ const FileKindRow* row_of(const std::string& file) {
   return found != kFileKinds.rend() ? &*found : nullptr;
 }
 
+bool is_text(std::string_view bytes) {
+  return std::none_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c < ' ' && std::isspace(c) == 0; });
+}
+
 core::Result<FileKind> kind_of(const std::string& file) {
   if (const FileKindRow* row = row_of(file)) return row->kind;
   const auto beginning = core::read_beginning(file, core::kFileKindBytes);
   if (!beginning) return tl::unexpected(beginning.error());
   std::error_code unknown;
   const std::string kind = curves::unread_kind_of(*beginning, std::filesystem::file_size(file, unknown));
+  const std::string what = !kind.empty() ? kind
+                           : is_text(*beginning)
+                               ? "of no known kind; a table of numbers needs --columns \"height:um force:nN\""
+                               : "of no known kind";
   return core::failure(core::ErrorCategory::BadInputFile,
-                       fmt::format("cannot analyse {}: it is {}; known are {}", file,
-                                   kind.empty() ? "of no known kind" : kind, known_files()));
+                       fmt::format("cannot analyse {}: it is {}; known are {}", file, what, known_files()));
 }
 
 // An option that applies to only one kind of file.
@@ -261,7 +270,7 @@ core::Result<void> analyse_session(const AnalyseOptions& options) {
         {"half_width_N", loop->half_width.si}, {"offset_N", loop->offset.si},
         {"slope_N_per_m", loop->slope.si},     {"dissipated_J", loop->dissipated.si}};
     core::name_software(report);
-    return write_stdout(report.dump(2) + "\n");
+    return write_stdout(core::json_text(report, 2) + "\n");
   }
   return write_report(fmt::format(
       "{}, friction {}: the last complete loop\n"
@@ -306,7 +315,7 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
   }
   nlohmann::ordered_json result = curves::features_json(*measured, compared);
   if (fit) result["fit"] = fit_json(*fit, options.fit);
-  return write_stdout(result.dump(2) + "\n");
+  return write_stdout(core::json_text(result, 2) + "\n");
 }
 
 void add_analyse_command(OptionList& program, const CommandContext&) {

@@ -153,8 +153,13 @@ std::string row_of(const std::string& file, std::size_t index, const curves::Fit
 }
 
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {
-  std::error_code error;
+  std::error_code error, unknown;
   std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, unknown)) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("--out {}: it is no folder, and none can be made there ({}); name another", folder,
+                                     error ? error.message() : core::system_error(ENOTDIR)));
+  }
   for (const char* name : {kHistograms, kPage}) {
     if (!std::filesystem::exists(std::filesystem::path(folder) / name, error)) continue;
     return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, name));

@@ -23,6 +23,7 @@
 #include "app/analyse/reading_options.h"
 #include "app/options/standard_output.h"
 #include "core/clock.h"
+#include "core/json_text.h"
 #include "core/log.h"
 #include "core/written_by.h"
 
@@ -171,7 +172,7 @@ std::string map_times_json(const MapTimes& times) {
   add("fit_s", times.fit_s);
   add("fit_on_one_thread_s", times.fit_alone_s);
   root["memory_bytes"] = times.memory_bytes;
-  return root.dump(2) + "\n";
+  return core::json_text(root, 2) + "\n";
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_output.h"
 #include "curves/curve_report.h"
+#include "curves/image_output.h"
 #include "curves/plot_units.h"
 #include "curves/sweep.h"
 #include "curves/tapping/tapping_sweep.h"
@@ -50,6 +51,18 @@ std::optional<curves::WritableFormat> file_format_of(std::string_view word) {
     if (row.word == word) return row;
   }
   return std::nullopt;
+}
+
+// Refuses a name of an image, and to replace a curve by what is none.
+core::Result<void> check_out(const std::string& out, std::string_view format) {
+  if (curves::image_format(out)) {
+    return wrong_usage(fmt::format(
+        "--out {}: this is a name for an image; take one that ends in .csv, .json, .svg, .tab or .h5", out));
+  }
+  if ((format == "svg" || format == "json") && curves::is_curve_file(out)) {
+    return wrong_usage(fmt::format("--out {}: it is a curve, which would be lost; name a new file", out));
+  }
+  return {};
 }
 
 core::Result<std::string> output_format(const CurveOptions& options) {
@@ -225,6 +238,7 @@ void add_output_options(OptionList& command, CurveOptions& options) {
 core::Result<void> write_curve_command(const CurveOptions& options) {
   const auto format = output_format(options);
   if (!format) return tl::unexpected(format.error());
+  if (const auto checked = check_out(options.out, *format); !checked) return checked;
   if (options.tapping.mode != "contact") return write_tapping(with_swept_amplitude(options), *format);
   if (const auto checked = check_tapping_options(options.tapping); !checked) return tl::unexpected(checked.error());
   const auto setup = contact_setup(with_swept_values(options.contact, options.sweeps));

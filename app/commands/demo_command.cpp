@@ -21,6 +21,7 @@
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
 #include "app/tapping/tapping_command.h"
+#include "core/json_text.h"
 #include "core/log.h"
 #include "core/output_folder.h"
 #include "curves/tapping/driven_setup.h"
@@ -149,7 +150,8 @@ core::Result<void> write_results(const exhibit::DemoResult& result, const std::v
       plotted.push_back({variation.measurement.title, &variation.session});
     }
   }
-  if (auto saved = out.write("summary.json", exhibit::summary_json(result).dump(2) + "\n"); !saved) return saved;
+  if (auto saved = out.write("summary.json", core::json_text(exhibit::summary_json(result), 2) + "\n"); !saved)
+    return saved;
   const std::string report = exhibit::report_html(result, pictures, exhibit::curves_svg(plotted, phrases), phrases);
   if (auto saved = out.write("report.html", report); !saved) return saved;
   return out.commit();

@@ -166,7 +166,9 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   std::error_code error;
   std::filesystem::create_directories(participant, error);
   if (error) {
-    return core::failure(core::ErrorCategory::Failed, fmt::format("cannot make {}: {}", participant, error.message()));
+    return core::failure(
+        core::ErrorCategory::Failed,
+        fmt::format("cannot make {}: {}; choose another folder with --out", participant, error.message()));
   }
   auto ran = run_view(view, program, &guided);
   for (const std::string& folder : {view.settings.record_folder, participant, options.out}) remove_empty(folder);

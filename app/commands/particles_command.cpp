@@ -16,6 +16,7 @@
 #include "app/options/command.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "core/json_text.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
 #include "curves/image_output.h"
@@ -152,7 +153,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
                        {"all_changes", !played.more_changes},
                        {"moves", list(played.ends)}};
   core::name_software(whole);
-  return whole.dump() + "\n";
+  return core::json_text(whole) + "\n";
 }
 
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }

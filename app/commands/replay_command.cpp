@@ -11,6 +11,7 @@
 #include "app/commands/task_figures.h"
 #include "app/options/command.h"
 #include "app/options/sound_options.h"
+#include "core/json_text.h"
 #include "core/log.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
@@ -99,7 +100,7 @@ std::string json(const servo::RecordedSession& session, const servo::Replay& rep
   report.update(
       nlohmann::json(curves::session_numbers(session.material, session.parameters, session.sources, assets_dir)));
   core::name_software(report);
-  return report.dump() + "\n";
+  return core::json_text(report) + "\n";
 }
 
 std::string plain(const servo::RecordedSession& session, const servo::Replay& replayed, const servo::ReplayRange& range,

@@ -14,6 +14,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "app/tapping/tapping_command.h"
+#include "core/json_text.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
 #include "curves/angle_units.h"
@@ -61,7 +62,7 @@ core::Result<void> write_scan_command(const ScanOptions& options) {
         core::write_file(options.out, one_channel ? curves::gsf_bytes(scan->image, 0) : curves::gwy_bytes(scan->image));
     if (!written) return written;
   }
-  return options.json ? write_stdout(imaging::scan_json(*scan).dump(2) + "\n") : core::Result<void>{};
+  return options.json ? write_stdout(core::json_text(imaging::scan_json(*scan), 2) + "\n") : core::Result<void>{};
 }
 
 core::Result<TrueScan> scan_with_truth(const ScanOptions& options) {
@@ -73,7 +74,7 @@ core::Result<TrueScan> scan_with_truth(const ScanOptions& options) {
   truth["seed"] = options.seed;
   truth["surface"] = std::filesystem::path(options.out).filename().string() + ".truth.gwy";
   return TrueScan{curves::gwy_bytes(scan->image), curves::gwy_bytes(imaging::true_image_of(*scan)),
-                  truth.dump(2) + "\n"};
+                  core::json_text(truth, 2) + "\n"};
 }
 
 namespace {

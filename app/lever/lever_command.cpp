@@ -16,6 +16,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "app/options/uncertainty_option.h"
+#include "core/json_text.h"
 #include "core/whole_file.h"
 #include "curves/lever/lever_calibration.h"
 #include "curves/lever/lever_output.h"
@@ -142,7 +143,7 @@ core::Result<void> calibrate_lever(LeverCommand command) {
     if (const auto written = core::write_file(command.out, curves::svg(curves::lever_plot(*result))); !written)
       return written;
   }
-  return command.json ? write_stdout(curves::lever_json(options, *result).dump(2) + "\n")
+  return command.json ? write_stdout(core::json_text(curves::lever_json(options, *result), 2) + "\n")
                       : write_report(curves::lever_text(options, *result));
 }
 

@@ -21,6 +21,7 @@
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
+#include "curves/image_output.h"
 #include "servo/session_file.h"
 
 namespace afm::app {
@@ -121,6 +122,17 @@ std::string_view measurement_in(const std::string& path) {
   return curves::is_curve_file(path) ? "a curve" : "";
 }
 
+// The same if only an instrument or the live window writes such files; results replace older results.
+std::string_view foreign_measurement_in(const std::string& path) {
+  const std::string_view measurement = measurement_in(path);
+  if (measurement == "an image" && curves::image_format(path)) return "";
+  if (measurement != "a curve") return measurement;
+  if (curves::writable_format_of(path)) return "";
+  constexpr std::string_view kOwn = "# TouchAFM";
+  const auto beginning = core::read_beginning(path, kOwn.size());
+  return beginning && *beginning == kOwn ? "" : measurement;
+}
+
 // Whether its value is a file, alone or behind a word and a colon.
 bool reads(CLI::Option& option) {
   const std::string value = value_of(option);
@@ -141,14 +153,15 @@ bool is_one_file(const std::string& a, const std::string& b) {
   return std::filesystem::is_regular_file(a, missing) && std::filesystem::equivalent(a, b, missing);
 }
 
-// Refuses to write the file that another option reads, and a picture in place of any measurement, which would be lost.
+// Refuses to write the file that another option reads, and to replace a measurement, which would be lost.
 core::Result<void> check_written_files(CLI::App& app) {
   std::vector<CLI::Option*> given;
   add_given_options(app, given);
   for (CLI::Option* out : given) {
     if (!writes(*out)) continue;
     const std::string& path = out->results().back();
-    const std::string_view measurement = has_check(*out, kDraws) ? measurement_in(path) : "";
+    const bool draws = has_check(*out, kDraws);
+    const std::string_view measurement = draws ? measurement_in(path) : foreign_measurement_in(path);
     for (CLI::Option* in : given) {
       if (!reads(*in)) continue;
       for (const std::string& text : in->results()) {
@@ -160,8 +173,8 @@ core::Result<void> check_written_files(CLI::App& app) {
       }
     }
     if (measurement.empty()) continue;
-    return core::wrong_usage(fmt::format("{} {}: it is {}, which a picture would replace; name a new file",
-                                         out->get_name(), path, measurement));
+    return core::wrong_usage(fmt::format("{} {}: it is {}, which {}; name a new file", out->get_name(), path,
+                                         measurement, draws ? "a picture would replace" : "would be lost"));
   }
   return {};
 }

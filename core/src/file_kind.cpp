@@ -96,6 +96,21 @@ std::string_view beginning(std::string_view text) {
   return text;
 }
 
+// Without a byte-order mark: letters, digits and blanks with every other byte zero.
+bool is_utf16(std::string_view bytes) {
+  constexpr std::size_t kLetters = 16;
+  if (bytes.size() < 2 * kLetters) return false;
+  for (const std::size_t low : {0U, 1U}) {
+    bool all = true;
+    for (std::size_t i = 0; all && i < 2 * kLetters; i += 2) {
+      const auto letter = static_cast<unsigned char>(bytes[i + low]);
+      all = bytes[i + 1 - low] == '\0' && (std::isprint(letter) != 0 || std::isspace(letter) != 0);
+    }
+    if (all) return true;
+  }
+  return false;
+}
+
 // Kinds without a signature of their own: mark-up, STL, OBJ.
 std::optional<FileKind> kind_of_text(std::string_view bytes, std::uint64_t file_size) {
   constexpr FileKind kHtml{"an HTML page, probably in place of a download", FileRole::WebPage};
@@ -137,6 +152,8 @@ std::optional<FileKind> file_kind(std::string_view beginning, std::uint64_t file
   for (const Signature& row : kSignatures) {
     if (beginning.size() > row.offset && beginning.substr(row.offset).starts_with(row.bytes)) return row.kind;
   }
+  if (file_size == 0) return FileKind{"an empty file", FileRole::Empty};
+  if (is_utf16(beginning)) return FileKind{"a text in UTF-16", FileRole::OtherText};
   return kind_of_text(beginning, file_size);
 }
 
@@ -150,6 +167,8 @@ std::string_view remedy_of(FileRole role) {
       return "download the file itself";
     case FileRole::OtherText:
       return "save it in UTF-8";
+    case FileRole::Empty:
+      return "copy or export it again";
     case FileRole::Picture:
     case FileRole::Model:
     case FileRole::LabFile:

@@ -96,7 +96,13 @@ OutputFolder::~OutputFolder() {
 std::string OutputFolder::staged(std::string_view name) const { return staging_ + "/" + std::string(name); }
 
 Result<void> OutputFolder::write(std::string_view name, std::string_view bytes) {
-  return write_file(staged(name), bytes);
+  auto written = write_file(staged(name), bytes);
+  if (written) return written;
+  Error error = written.error();
+  // nobody knows the staging folder
+  if (const std::size_t at = error.message.find(staging_); at != std::string::npos)
+    error.message.replace(at, staging_.size(), path_);
+  return tl::unexpected(error);
 }
 
 Result<void> OutputFolder::commit() {

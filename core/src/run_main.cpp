@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/run_main.h"
 
+#include <fcntl.h>
+
+#include <cerrno>
 #include <exception>
 #include <new>
 #include <system_error>
@@ -41,9 +44,20 @@ namespace {
               "raise the limit (ulimit -v)");
 }
 
+// A closed descriptor of stdin, stdout or stderr would be that of the next opened file, and the report or the log would
+// go into this file. A placeholder is as useless as a closed one.
+void take_standard_descriptors() {
+  for (const int descriptor : {0, 1, 2}) {
+    if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
+    // the lowest free one
+    [[maybe_unused]] const int taken = ::open("/dev/null", descriptor == 0 ? O_WRONLY : O_RDONLY);
+  }
+}
+
 }  // namespace
 
 int run_main(const std::function<int()>& run) noexcept {
+  take_standard_descriptors();
   std::set_terminate(end_in_good_order);
   return report_exceptions([&] {
     take_interruptions();

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "core/base64.h"
+#include "core/printable.h"
 
 namespace afm::curves {
 
@@ -38,7 +39,7 @@ bool is_alnum(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0;
 
 std::string escaped(const std::string& text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : core::printable(text)) {
     if (c == '&') {
       html += "&amp;";
     } else if (c == '<') {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/printable.h"
 #include "core/written_by.h"
 
 namespace afm::curves {
@@ -26,7 +27,7 @@ bool finite(SvgPoint p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char c : text) {
+  for (const char c : core::printable(text)) {
     switch (c) {
       case '&':
         result += "&amp;";

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "core/json_text.h"
 #include "core/version.h"
 #include "fits/driven_contact.h"
 #include "physics/normal_generator.h"
@@ -263,7 +264,7 @@ core::Result<SyntheticFile> synthetic_curves(const SyntheticSetup& setup, std::s
     file.curves.push_back(std::move(made->curve));
     truth["curves"].push_back(std::move(made->truth));
   }
-  file.truth = truth.dump(2) + "\n";
+  file.truth = core::json_text(truth, 2) + "\n";
   return file;
 }
 
@@ -294,7 +295,7 @@ core::Result<SyntheticFile> synthetic_map(const SyntheticSetup& setup, const Syn
     truth["curves"].push_back(std::move(made->truth));
   }
   add_map(map, file.curves, truth);
-  file.truth = truth.dump(2) + "\n";
+  file.truth = core::json_text(truth, 2) + "\n";
   return file;
 }
 

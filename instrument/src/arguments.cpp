@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/printable.h"
 #include "refused_request.h"
 
 namespace afm::instrument {
@@ -58,7 +59,8 @@ void Arguments::finish() const {
     for (const std::string& each : asked_) {
       if (std::find(kCommon.begin(), kCommon.end(), each) == kCommon.end()) known += (known.empty() ? "" : ", ") + each;
     }
-    throw RefusedRequest(fmt::format("\"{}\" has no effect here; known: {}", name, known.empty() ? "nothing" : known));
+    throw RefusedRequest(
+        fmt::format("\"{}\" has no effect here; known: {}", core::printable(name), known.empty() ? "nothing" : known));
   }
 }
 

@@ -16,6 +16,7 @@
 #include "core/written_by.h"
 #include "curves/contact_setup.h"
 #include "curves/tapping/driven_setup.h"
+#include "physics/lever_dynamics.h"
 
 namespace afm::instrument {
 namespace {
@@ -168,6 +169,20 @@ core::Result<void> set_value(const std::string& key, const Json& value, Settings
 
 }  // namespace
 
+namespace {
+
+// Numbers of the lever act in a vibrating mode and in a spectrum alone, whatever the law.
+core::Result<curves::ContactSetup> with_checked_lever(curves::ContactSetup setup) {
+  try {
+    physics::validate(setup.material.lever);
+  } catch (const physics::UnphysicalValue& error) {
+    return wrong_usage(error.what());
+  }
+  return setup;
+}
+
+}  // namespace
+
 core::Result<curves::ContactSetup> contact_of(const curves::ContactOptions& options) {
   curves::ContactOptions held(options);
   for (const char* name : {"resonance", "quality-factor"}) held.si_values.erase(name);
@@ -182,7 +197,7 @@ core::Result<curves::ContactSetup> contact_of(const curves::ContactOptions& opti
   const auto swung = curves::driven_setup(choice, options);
   if (!swung) return tl::unexpected(swung.error());
   setup->material.lever = swung->material.lever;
-  return setup;
+  return with_checked_lever(std::move(*setup));
 }
 
 Json settings_json(const Settings& settings, const curves::ContactSetup& setup) {

@@ -345,7 +345,8 @@ Door::Then JsonDoor::answer(std::string_view request, const Send& send) {
     Arguments arguments(parsed);
     const auto name = arguments.text("do", 32).value_or("");
     const Verbs::Row* verb = Verbs::find(name);
-    if (verb == nullptr) throw RefusedRequest(fmt::format("there is no verb \"{}\"; \"hello\" lists them", name));
+    if (verb == nullptr)
+      throw RefusedRequest(fmt::format("there is no verb \"{}\"; \"hello\" lists them", core::printable(name)));
     static_cast<void>(arguments.packs_arrays());  // an unknown form, refused whatever the verb
     if (verb->run == &Verbs::quit) then = Then::Quit;
     Json members = verb->run(*this, arguments, id, send);

@@ -350,6 +350,12 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
 NanonisDoor::NanonisDoor(SimulatedInstrument& instrument) : instrument_(instrument) {}
 NanonisDoor::~NanonisDoor() = default;
 
+// Such as a client of another protocol.
+bool NanonisDoor::announces_too_much(std::string_view bytes) const {
+  return bytes.size() >= kHeaderBytes &&
+         kHeaderBytes + NanonisReader(bytes.substr(kNameBytes)).read<std::uint32_t>() > most_request_bytes();
+}
+
 std::optional<std::size_t> NanonisDoor::request_size(std::string_view bytes) const {
   if (bytes.size() < kHeaderBytes) return std::nullopt;
   const auto body = NanonisReader(bytes.substr(kNameBytes)).read<std::uint32_t>();

@@ -53,8 +53,9 @@ class Client {
       if (then == Door::Then::Quit) return then;
       if (gone_) break;
     }
-    if (buffer_.size() > door.most_request_bytes()) send(door.too_long());
-    if (ended_ || gone_ || buffer_.size() > door.most_request_bytes()) leave();
+    const bool too_long = buffer_.size() > door.most_request_bytes() || door.announces_too_much(buffer_);
+    if (too_long) send(door.too_long());
+    if (ended_ || gone_ || too_long) leave();
     return Door::Then::GoOn;
   }
 

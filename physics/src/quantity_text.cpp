@@ -10,10 +10,11 @@
 namespace afm::physics {
 namespace {
 
-constexpr std::array kLengths{Unit{"m", 1.0, true},          Unit{"mm", 1e3, true},         Unit{"um", 1e6, true},
-                              Unit{"\u00b5m", 1e6, false},   Unit{"\u03bcm", 1e6, false},   Unit{"nm", 1e9, true},
-                              Unit{"\u00c5", 1e10, false},   Unit{"\u212b", 1e10, false},   Unit{"A", 1e10, false},
-                              Unit{"Angstrom", 1e10, false}, Unit{"angstrom", 1e10, false}, Unit{"pm", 1e12, true}};
+constexpr std::array kLengths{Unit{"m", 1.0, true},   Unit{"cm", 1e2, false},        Unit{"mm", 1e3, true},
+                              Unit{"um", 1e6, true},  Unit{"\u00b5m", 1e6, false},   Unit{"\u03bcm", 1e6, false},
+                              Unit{"nm", 1e9, true},  Unit{"\u00c5", 1e10, false},   Unit{"\u212b", 1e10, false},
+                              Unit{"A", 1e10, false}, Unit{"Angstrom", 1e10, false}, Unit{"angstrom", 1e10, false},
+                              Unit{"pm", 1e12, true}};
 constexpr std::array kForces{Unit{"N", 1.0, true},        Unit{"mN", 1e3, true},       Unit{"uN", 1e6, true},
                              Unit{"\u00b5N", 1e6, false}, Unit{"\u03bcN", 1e6, false}, Unit{"nN", 1e9, true},
                              Unit{"pN", 1e12, true}};
@@ -25,8 +26,9 @@ constexpr double kJoulesPerElectronvolt = 1.602176634e-19;
 constexpr std::array kEnergies{Unit{"J", 1.0, true}, Unit{"aJ", 1e18, true},
                                Unit{"eV", 1.0 / kJoulesPerElectronvolt, false},
                                Unit{"meV", 1e3 / kJoulesPerElectronvolt, false}, Unit{"zJ", 1e21, true}};
-constexpr std::array kStiffnesses{Unit{"N/m", 1.0, true}, Unit{"mN/m", 1e3, true}, Unit{"nN/nm", 1.0, false},
-                                  Unit{"pN/nm", 1e3, false}};
+constexpr std::array kStiffnesses{
+    Unit{"N/m", 1.0, true},    Unit{"mN/m", 1e3, true},        Unit{"nN/nm", 1.0, false},     Unit{"pN/nm", 1e3, false},
+    Unit{"nN/um", 1e3, false}, Unit{"nN/\u00b5m", 1e3, false}, Unit{"nN/\u03bcm", 1e3, false}};
 constexpr std::array kSurfaceEnergies{Unit{"J/m2", 1.0, true}, Unit{"J/m^2", 1.0, false}, Unit{"J/m\u00b2", 1.0, false},
                                       Unit{"mJ/m2", 1e3, true}, Unit{"mJ/m^2", 1e3, false},
                                       Unit{"mJ/m\u00b2", 1e3, false},
@@ -106,6 +108,9 @@ std::variant<double, std::string> parse_si(std::string_view text, std::string_vi
   if (status == std::errc::invalid_argument) return refusal(text, sort, units, "it does not begin with a number");
   const std::string_view symbol = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
   const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.symbol == symbol; });
+  if (symbol.size() > 1 && symbol[0] == ',' && symbol[1] >= '0' && symbol[1] <= '9') {
+    return refusal(text, sort, units, "it has a decimal comma; write a decimal point");
+  }
   if (unit == units.end() && symbol.empty()) return refusal(text, sort, units, "it has no unit");
   if (unit == units.end()) return refusal(text, sort, units, quoted(symbol) + " is not its unit");
   if (status == std::errc::result_out_of_range) return refusal(text, sort, units, "the number is out of range");

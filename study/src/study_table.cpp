@@ -17,11 +17,14 @@ namespace {
 constexpr std::size_t kMostLines = 100'000;
 constexpr std::size_t kLongestWord = 64;
 
+// Fields without the quotes that some spreadsheets put around each.
 std::vector<std::string_view> tab_fields(std::string_view line) {
   std::vector<std::string_view> fields;
   for (;;) {
     const std::size_t tab = line.find('\t');
-    fields.push_back(line.substr(0, tab));
+    std::string_view field = line.substr(0, tab);
+    if (field.size() >= 2 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
     if (tab == std::string_view::npos) return fields;
     line.remove_prefix(tab + 1);
   }
@@ -88,8 +91,10 @@ core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name
       width = fields.size();
       continue;
     }
+    if (fields.size() == 1 && fields.front().find_first_not_of(" \r") == kNowhere) continue;  // an editor's
     if (fields.size() != width) {
-      return bad_line(name, number, fmt::format("{} fields instead of {}", fields.size(), width));
+      return bad_line(name, number,
+                      fmt::format("{} field{} instead of {}", fields.size(), fields.size() == 1 ? "" : "s", width));
     }
     std::vector<std::string_view>& line = table.lines.emplace_back();
     for (const std::size_t place : places) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/whole_file.h"
 #include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
@@ -49,6 +50,35 @@ TEST_F(Limits, OfThreadsAreSaidBeforeAnythingIsDrawn) {
   expect_one_line(under("-s 4000000 -v 3000000", "wall " + support::source("assets/walls/3d-tv.toml")),
                   "cannot start another thread");
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+// Closed descriptors would be those of the next files, which the report and the log would then go into.
+TEST_F(Limits, OfDescriptorsLetNoReportIntoAFile) {
+  const std::string curve = folder_.file("gel.tab"), fits = folder_.file("fits");
+  const std::string generate =
+      "generate curve --radius 5um --modulus 3kPa --spring-constant 0.05N/m --most-force 1nN --out ";
+  ASSERT_EQ(support::run_program(support::touchafm() + " " + generate + curve).exit_code, 0);
+  const auto done = support::run_program("bash -c 'exec " + support::touchafm() + " analyse " + curve + " " + curve +
+                                         " --fit sphere --radius 5um --out " + fits + " <&- >&- 2>&-'");
+  EXPECT_EQ(done.exit_code, 1) << "the report cannot be printed";
+  const std::string table = core::read_file(fits + "/fits.tsv").value();
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << table;
+  const auto read = support::run_program("bash -c 'ulimit -t 2; ulimit -v 600000; exec " + support::touchafm() +
+                                         " convert " + curve + " " + folder_.file("gel.h5") + "'");
+  EXPECT_EQ(read.exit_code, 0) << "limits below those of the confined reader: " << read.err;
+}
+
+// A file name is any bytes; JSON is UTF-8.
+TEST_F(Limits, OfUtf8AreNoneOfTheNamesOfFiles) {
+  const std::string curve = folder_.file("gel\xFF.tab"), image = folder_.file("mica\xFF.gwy");
+  for (const std::string& arguments :
+       {"generate curve --radius 5um --modulus 3kPa --spring-constant 0.05N/m --most-force 1nN --out " + curve,
+        "analyse --json " + curve, "analyse --json --fit sphere --radius 5um " + curve,
+        "generate image --material mica --size 40nm --pixels 8 --out " + image, "analyse --json " + image,
+        "scan --json --pixels 8 --sample " + image}) {
+    const auto done = support::run_program(support::touchafm() + " " + arguments);
+    EXPECT_EQ(done.exit_code, 0) << arguments << done.err;
+  }
 }
 
 TEST_F(Limits, OfMemoryAreSaidInOneLine) {

@@ -19,7 +19,15 @@ TEST(FileKinds, AreToldByTheirBeginning) {
   EXPECT_EQ(name_of(std::string(257, '\0') + "ustar"), "a tar archive");
   EXPECT_EQ(name_of("\xEF\xBB\xBF\n <!doctype HTML>"), "an HTML page, probably in place of a download");
   EXPECT_EQ(name_of("# two\n# lines\nv 0 0 0\n"), "an OBJ file");
-  for (const char* other : {"", "x", "height force\n0 1\n", "{\"asset\": {}}", "glTF\x02", "#", "####\n\n"})
+  EXPECT_EQ(name_of(""), "an empty file");
+  const std::string utf16(
+      "h\0e\0i\0g\0h\0t\0 \0f\0o\0r\0c\0e\0\n\0"
+      "0\0 \0"
+      "1\0",
+      32);
+  EXPECT_EQ(name_of(utf16), "a text in UTF-16");
+  EXPECT_EQ(name_of(utf16.substr(31) + utf16.substr(0, 31)), "a text in UTF-16") << "the higher byte first";
+  for (const char* other : {"x", "height force\n0 1\n", "{\"asset\": {}}", "glTF\x02", "#", "####\n\n"})
     EXPECT_EQ(name_of(other), "") << other;
 }
 

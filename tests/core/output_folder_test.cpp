@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 
 #include "core/whole_file.h"
 #include "support/scratch_folder.h"
@@ -38,6 +39,16 @@ TEST(OutputFolder, LeavesNothingBehindWithoutACommit) {
     ASSERT_TRUE(out->write("a.txt", "a").has_value());
   }
   EXPECT_EQ(entries(scratch.path()), 0U);
+}
+
+TEST(OutputFolder, NamesAFileThatCannotBeWrittenAsItWouldBeSeen) {
+  const support::ScratchFolder scratch;
+  auto out = OutputFolder::open(scratch.path());
+  ASSERT_TRUE(out.has_value());
+  const std::string name(300, 'n');
+  const auto written = out->write(name, "a");
+  ASSERT_FALSE(written.has_value());
+  EXPECT_THAT(written.error().message, testing::HasSubstr("cannot write " + scratch.path() + "/" + name));
 }
 
 TEST(OutputFolder, ReplacesItsOwnFilesAndKeepsTheOthers) {

@@ -107,6 +107,29 @@ TEST_P(ExactFormat, RefusesEveryCutOfAFile) {
 
 INSTANTIATE_TEST_SUITE_P(CurveFiles, ExactFormat, testing::Values(CurveFormat::Tab, CurveFormat::Hdf5));
 
+// Editors and old Macs.
+TEST(CurveTexts, AreReadWithOtherLineEnds) {
+  for (const CurveFormat format : {CurveFormat::Tab, CurveFormat::AfmWorkshop}) {
+    std::string bytes = *curve_bytes(format, adhesive_curve());
+    std::erase(bytes, '\r');
+    const auto plain = parse_curve(bytes, "mica");
+    ASSERT_TRUE(plain) << plain.error().message;
+    std::replace(bytes.begin(), bytes.end(), '\n', '\r');
+    const auto old = parse_curve(bytes, "mica");
+    ASSERT_TRUE(old) << old.error().message;
+    EXPECT_EQ(old->points.size(), plain->points.size());
+  }
+  std::string bytes = *curve_bytes(CurveFormat::Tab, adhesive_curve());
+  bytes.pop_back();
+  EXPECT_THAT(error_of(bytes), HasSubstr("its last line has no end, and may have lost digits"));
+}
+
+TEST(CurveTexts, AreNamedWithTheirNuls) {
+  std::string bytes = *curve_bytes(CurveFormat::Tab, adhesive_curve());
+  bytes.replace(bytes.size() - 20, 3, 3, '\0');
+  EXPECT_THAT(error_of(bytes), HasSubstr(", not a finite number"));
+}
+
 TEST(AfmWorkshopFile, HasEvenHeightsAndKeepsTheFiguresOfTheCurve) {
   const RecordedCurve written = adhesive_curve();
   const std::string bytes = *curve_bytes(CurveFormat::AfmWorkshop, written);
@@ -208,7 +231,7 @@ TEST(CurveFiles, AGivenSpringConstantReplacesTheFilesOwn) {
 }
 
 TEST(CurveFiles, RefuseWhatIsNoForceDistanceCurve) {
-  EXPECT_THAT(error_of(""), HasSubstr("no curve of a known kind"));
+  EXPECT_THAT(error_of(""), HasSubstr("it is an empty file"));
   EXPECT_THAT(error_of("hello"), HasSubstr("no curve of a known kind"));
   std::string creep = *curve_bytes(CurveFormat::Tab, adhesive_curve());
   creep.replace(creep.find("force-distance"), 14, "creep-complian");

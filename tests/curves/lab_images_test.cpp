@@ -235,5 +235,19 @@ TEST(LabImageFiles, TakeAnIgorWaveOfOneLayer) {
   EXPECT_EQ(read.image.channels[0].values, (std::vector<double>{4, 5, 6, 1, 2, 3}));
 }
 
+TEST(LabImageFiles, MayBeInAngstroms) {
+  for (const char* unit : {"\xC3\x85", "\xE2\x84\xAB", "\xC5"}) {
+    const auto image = parse_image(
+        test::gsf_file(
+            fmt::format("XRes = 2\nYRes = 2\nXReal = 20\nYReal = 20\nXYUnits = {}\nZUnits = {}\n", unit, unit),
+            {1, 2, 3, 4}),
+        "a.gsf");
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_DOUBLE_EQ(image->image.width_m, 2e-9);
+    EXPECT_EQ(image->image.channels[0].unit, "m");
+    EXPECT_NEAR(image->image.channels[0].values[3], 4e-10, 1e-24);
+  }
+}
+
 }  // namespace lab_images_test
 }  // namespace afm::curves

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "curves/lever/lever_calibration.h"
 #include "curves/lever/lever_output.h"
@@ -18,6 +19,7 @@ namespace afm::curves {
 namespace lever_calibration_test {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // A spectrum without scatter.
 std::string spectrum_file(const support::ScratchFolder& folder, const fits::Oscillator& oscillator, const char* units,
@@ -245,6 +247,26 @@ TEST_F(Lever, RefusesWhatActsOnNothing) {
   options.mode = 2;
   options.bandwidth_hz = 1e3;
   EXPECT_THAT(refusal(options), HasSubstr("--bandwidth has no effect"));
+}
+
+TEST_F(Lever, DoubtsWhatSadersMethodIsNotFor) {
+  LeverOptions options;
+  options.sader = true;
+  options.inputs[LeverInput::Length] = 30e-6;
+  options.inputs[LeverInput::Width] = 120e-6;
+  options.inputs[LeverInput::Resonance] = 70e3;
+  options.inputs[LeverInput::QualityFactor] = 0.8;
+  const auto doubtful = calibrate(options);
+  ASSERT_TRUE(doubtful) << doubtful.error().message;
+  EXPECT_THAT(lever_text(options, *doubtful), HasSubstr("doubtful: the lever is 0.25 times as long as it is wide"));
+  EXPECT_THAT(lever_text(options, *doubtful), HasSubstr("are length and width exchanged?"));
+  EXPECT_EQ(lever_json(options, *doubtful)["sader"]["doubts"].size(), 2U);
+  std::swap(*options.inputs[LeverInput::Length], *options.inputs[LeverInput::Width]);
+  options.inputs[LeverInput::QualityFactor] = 150.0;
+  const auto fine = calibrate(options);
+  ASSERT_TRUE(fine) << fine.error().message;
+  EXPECT_THAT(lever_text(options, *fine), Not(HasSubstr("doubtful")));
+  EXPECT_EQ(lever_json(options, *fine)["sader"]["doubts"].size(), 0U);
 }
 
 TEST_F(Lever, OfAHigherModeGivesNoResonanceToSaderAndGci) {

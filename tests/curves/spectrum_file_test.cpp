@@ -67,6 +67,23 @@ TEST(SpectrumFile, IsRefusedWithDecimalCommasBetweenCommas) {
   EXPECT_EQ(read("Hz, V2/Hz, fit\n1000,2e-3,7\n1001,0.5,7\n").rows.size(), 2U);
 }
 
+TEST(SpectrumFile, HasDecimalCommasBetweenOtherSeparators) {
+  for (const char* separator : {"\t", ";", " ", " ; "}) {
+    const std::string gap = separator;
+    const Spectrum spectrum = read("Hz;V2/Hz\n1000" + gap + "1,5e-3\n1000,5" + gap + "0,0025\n");
+    ASSERT_EQ(spectrum.rows.size(), 2U) << separator;
+    EXPECT_DOUBLE_EQ(spectrum.rows[1].frequency_hz, 1000.5) << separator;
+    EXPECT_DOUBLE_EQ(spectrum.rows[1].density, 0.0025) << separator;
+  }
+  expect_refused("Hz;V2/Hz\n1.000,5;2,5\n", "decimal point");
+  expect_refused("Hz, V2/Hz\n1000, 5 7\n", "line 2");
+}
+
+TEST(SpectrumFile, HasUnitsInLatin1) {
+  EXPECT_NEAR(read("Hz \xb5V\xb2/Hz\n1 2\n").rows.at(0).density, 2e-12, 1e-24);
+  EXPECT_NEAR(read("Hz \xb5m/sqrt(Hz)\n1 2\n").rows.at(0).density, 4e-12, 1e-24);
+}
+
 // Such a line may have lost the exponent of its number.
 TEST(SpectrumFile, LeavesOutALastLineWithoutItsEnd) { EXPECT_EQ(read("Hz V2/Hz\n1 2e-12\n2 2e-1").rows.size(), 1U); }
 
@@ -83,8 +100,7 @@ TEST(SpectrumFile, IsRefusedInOneLine) {
   expect_refused("Hz V2/Hz\n1 2\nend\n", "line 3");
   expect_refused("Hz V2/Hz\n2 2\n2 3\n", "line 3: the frequency does not rise");
   expect_refused("Hz V2/Hz\n1 -80\n", "decibels");
-  expect_refused("Hz;V2/Hz\n1,5;2,5\n", "decimal point");
-  expect_refused(std::string("Hz V2/Hz\n1 2\n\0 3\n", 17), "no text");
+  expect_refused(std::string("Hz V2/Hz\n1 2\n\0 3\n", 17), "UTF-16");
   expect_refused("1 2\n", "has no density", {.units = "Hz"});
   std::string many = "Hz V2/Hz\n";
   for (std::size_t i = 1; i <= kMostSpectrumRows + 1; ++i) many += std::to_string(i) + " 1\n";

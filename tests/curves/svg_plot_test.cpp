@@ -61,6 +61,8 @@ TEST(SvgPlot, EscapesWhatPeopleWrite) {
   plot.lines.push_back({"x > y", "#000", LineStyle::Solid, {{0, 0}, {1, 1}}});
   const std::string text = svg(plot);
   EXPECT_THAT(text, HasSubstr("a &lt; b &amp; &quot;c&quot;"));
+  plot.title = "gel\xFF\x01.h5";
+  EXPECT_THAT(svg(plot), HasSubstr("gel\xEF\xBF\xBD\xEF\xBF\xBD.h5")) << "no XML otherwise";
   EXPECT_THAT(text, HasSubstr("x &gt; y"));
 }
 

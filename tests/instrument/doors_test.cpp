@@ -112,6 +112,19 @@ TEST_F(DoorsTest, GivesUpARequestWithoutEnd) {
   EXPECT_THAT(rest_of(client), HasSubstr("more than 1 MiB"));
 }
 
+// Such as a browser at the port.
+TEST_F(DoorsTest, GivesUpAClientOfAnotherProtocol) {
+  auto listener = Listener::on_socket(path_);
+  ASSERT_TRUE(listener) << listener.error().message;
+  thread_ = std::thread([this, listener = std::move(*listener)] {
+    NanonisDoor door(instrument_);
+    EXPECT_TRUE(serve(std::array{OpenDoor{&listener, &door}}, true));
+  });
+  const core::FileDescriptor client = connected_to(path_);
+  EXPECT_EQ(send_all(client, "GET / HTTP/1.1\r\nHost: 127.0.0.1:6501\r\nAccept: */*\r\n\r\n"), 0);
+  EXPECT_EQ(rest_of(client), "");
+}
+
 TEST_F(DoorsTest, SurvivesAClientThatLeavesDuringAScan) {
   start(false);
   {

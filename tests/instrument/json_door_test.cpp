@@ -256,15 +256,27 @@ TEST_F(JsonDoorTest, WritesNowhereElse) {
 
 TEST_F(JsonDoorTest, RefusesWhatItDoesNotUnderstand) {
   const std::string deep = R"({"do": )" + std::string(100'000, '[') + "}";
-  for (const std::string& request :
-       {std::string(), std::string("{"), std::string("[]"), std::string("7"), std::string(R"({"do": 7})"), deep,
-        std::string("\xff\xfe{}"), std::string(R"({"id": {"a": 1}, "do": "hello"})"), std::string(R"({"do": "fly"})"),
-        std::string(R"({"do": "wait"})"), std::string(R"({"do": "wait", "time_s": -1})"),
-        std::string(R"({"do": "wait", "time_s": 1e99})"), std::string(R"({"do": "wait", "time_s": "long"})"),
-        std::string(R"({"do": "curve", "points": 1.5})"), std::string(R"({"do": "curve", "point": 10})"),
-        std::string(R"({"do": "curve", "z_from_m": 1e-9, "z_to_m": 2e-9})"),
-        std::string(R"({"do": "set", "values": 3})"), std::string(R"({"do": "set", "values": {"colour": 3}})"),
-        std::string(R"({"do": "thermal", "points": 1e9})")}) {
+  for (const std::string& request : {std::string(),
+                                     std::string("{"),
+                                     std::string("[]"),
+                                     std::string("7"),
+                                     std::string(R"({"do": 7})"),
+                                     deep,
+                                     std::string("\xff\xfe{}"),
+                                     std::string(R"({"id": {"a": 1}, "do": "hello"})"),
+                                     std::string(R"({"do": "fly"})"),
+                                     std::string(R"({"do": "wait"})"),
+                                     std::string(R"({"do": "wait", "time_s": -1})"),
+                                     std::string(R"({"do": "wait", "time_s": 1e99})"),
+                                     std::string(R"({"do": "wait", "time_s": "long"})"),
+                                     std::string(R"({"do": "curve", "points": 1.5})"),
+                                     std::string(R"({"do": "curve", "point": 10})"),
+                                     std::string(R"({"do": "curve", "z_from_m": 1e-9, "z_to_m": 2e-9})"),
+                                     std::string(R"({"do": "set", "values": 3})"),
+                                     std::string(R"({"do": "set", "values": {"colour": 3}})"),
+                                     std::string(R"({"do": "set", "values": {"quality_factor": 0}})"),
+                                     std::string(R"({"do": "set", "values": {"resonance_Hz": 1e12}})"),
+                                     std::string(R"({"do": "thermal", "points": 1e9})")}) {
     EXPECT_NE(refusal_of(request), "") << request.substr(0, 80);
     EXPECT_EQ(then_, JsonDoor::Then::GoOn);
   }

@@ -89,6 +89,7 @@ TEST(QuantityText, RefusesABareNumberAndListsTheUnits) {
 
 TEST(QuantityText, RefusesAnotherDimension) {
   EXPECT_THAT(refused("50nN", kLengthUnits), HasSubstr("\"nN\" is not its unit"));
+  EXPECT_THAT(refused("0,5nm", kLengthUnits), HasSubstr("it has a decimal comma; write a decimal point"));
   EXPECT_THAT(refused("5 mJ/m2", kStiffnessUnits), HasSubstr("one of the units N/m, mN/m"));
 }
 

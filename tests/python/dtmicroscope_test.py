@@ -2,6 +2,7 @@
 """DTMicroscope's method names, answered by the virtual microscope."""
 
 import doctest
+import math
 import unittest
 
 import numpy as np
@@ -85,11 +86,27 @@ class DTMicroscope(unittest.TestCase):
                              (lambda: self.afm.scan_individual_line("up"), "vertical"),
                              (lambda: self.afm.get_spectrum(channel="Height"), "Force"),
                              (lambda: dtmicroscope.AFM_Microscope().get_spectrum(), "setup_microscope"),
+                             (lambda: dtmicroscope.AFM_Microscope().get_scan(), "setup_microscope"),
+                             (lambda: dtmicroscope.AFM_Microscope().get_dataset_info(), "setup_microscope"),
+                             (lambda: dtmicroscope.AFM_Microscope().go_to(0.0, 0.0), "setup_microscope"),
+                             (lambda: dtmicroscope.AFM_Microscope().scan_arbitrary_path([[0.0, 0.0], [1e-9, 0.0]]), "setup_microscope"),
+                             (lambda: self.afm.get_scan(trace="backwards"), "backward"),
+                             (lambda: self.afm.go_to(math.nan, 0.0), "no place"),
+                             (lambda: self.afm.scan_individual_line(coord=math.nan), "no place"),
+                             (lambda: self.afm.scan_arbitrary_path([[0.0, 0.0], [math.inf, 0.0]]), "not finite"),
                              (lambda: self.afm.setup_microscope("cheese"), "cheese")):
             with self.assertRaisesRegex(ValueError, words):
                 wrong()
         with self.assertRaises(TypeError):
             self.afm.get_scan("Height")
+
+    def test_is_as_before_after_a_refusal(self):
+        before = self.afm.get_scan()
+        for wrong in (lambda: self.afm.setup_microscope("cheese"), lambda: self.afm.get_scan(scan_rate=-1.0)):
+            with self.assertRaises(ValueError):
+                wrong()
+        np.testing.assert_array_equal(self.afm.get_scan(), before)
+        self.assertEqual((self.afm.data_source, self.afm.scan_rate), ("gold", 10.0))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,9 @@
 """Curves of files and arrays, their analysis and fits: the numbers, refusals and JSON of the command."""
 
 import json
+import os
 import pathlib
+import shutil
 import tempfile
 import unittest
 
@@ -52,6 +54,13 @@ class Reading(Files):
                 touchafm.read(path)
             self.assertEqual(str(refused.exception), error_of("analyse", str(path)))
         self.assertTrue(issubclass(touchafm.FileError, OSError))
+
+    def test_names_a_file_whose_name_is_no_utf8(self):
+        path = os.fsencode(self.folder) + b"/gel\xff.tab"
+        with self.assertRaisesRegex(touchafm.FileError, "no such file"):
+            touchafm.read(path)
+        shutil.copy(self.made("gel.tab"), path)
+        self.assertIn("gel\ufffd.tab", repr(touchafm.read(path)[0]))
 
     def test_reads_an_image(self):
         path = self.folder / "mica.gwy"

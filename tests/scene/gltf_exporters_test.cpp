@@ -55,6 +55,27 @@ TEST_F(Exporters, DrawsFactorsThatAreRounded) {
   }
 }
 
+// As libraries of C# write members without a value.
+TEST_F(Exporters, TakesNullAsAbsent) {
+  json document = square_json();
+  document["animations"] = nullptr;
+  document["nodes"][1]["name"] = nullptr;
+  document["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", nullptr}};
+  document["extras"] = {{"kept", nullptr}};
+  EXPECT_EQ(drawn(document).materials.size(), 1U);
+  document["nodes"][0]["children"] = {nullptr};
+  expect_refused(load_bytes(glb(document.dump(), square_binary())), "/nodes/0/children/0");
+}
+
+TEST_F(Exporters, NamesAVersionThatIsNeeded) {
+  json document = square_json();
+  document["asset"]["minVersion"] = "3.0";
+  expect_refused(load_bytes(glb(document.dump(), square_binary())), "a reader of glTF '3.0'");
+  std::string bytes = glb(square_json().dump(), square_binary());
+  bytes.replace(8, 4, 4, '\0');
+  expect_refused(load_bytes(bytes), "its header announces 0 bytes");
+}
+
 TEST_F(Exporters, ClampsEveryFactorThatIsOffByOnePerCent) {
   struct Row {
     const char* path;

@@ -55,6 +55,16 @@ TEST(TomlFile, SaysWhatIsWrongInOneLine) {
   EXPECT_EQ(said.find('\n'), std::string::npos) << said;
 }
 
+TEST(TomlFile, NamesAFileInAnotherEncodingOrNoTextAtAll) {
+  const std::string utf16 = std::string("\xFF\xFE") + "a";
+  EXPECT_THAT(outcome(utf16), HasSubstr("a.toml: it is a text in UTF-16; save it in UTF-8"));
+  EXPECT_THAT(outcome("a = \"W\xE4nde\"\n"), HasSubstr("; save the file in UTF-8"));
+  EXPECT_THAT(outcome("<!DOCTYPE html><html>"), HasSubstr("it is an HTML page"));
+  EXPECT_THAT(outcome("\x1F\x8B\x08"), HasSubstr("it is a gzip file; unpack it first"));
+  EXPECT_EQ(outcome("g = 1\n"), "read");
+  EXPECT_EQ(outcome(""), "read");
+}
+
 // Texts go into lines: of a log, and of a curve file, where another line would be a sample.
 TEST(TomlFile, RefusesTextsOfSeveralLinesAndControlCharacters) {
   for (const char* text : {"\"\"\"c\nd\"\"\"", "\"c\\nd\"", "[{ c = \"\\u001b[2J\" }]", "\"c\\td\"", "\"\\u009b\""}) {

@@ -174,6 +174,27 @@ TEST(WallDoubts, KnowAHeadThatIsTooNearOrTooFar) {
   EXPECT_THAT(lecture.doubts(), IsEmpty());
 }
 
+TEST(WallDoubts, KnowAHeadBesideTheWall) {
+  Written wall;
+  wall.head = {10.0, 1.65, 0.5};
+  EXPECT_THAT(wall.doubts(), ElementsAre(AllOf(HasSubstr("0.50 m in front of screen \"wall\""), HasSubstr("strip"))));
+  wall.head = {2.5, 1.65, 1.0};
+  EXPECT_THAT(wall.doubts(), IsEmpty());
+}
+
+TEST(WallDoubts, KnowAHeadThatNearlyTouchesASmallScreen) {
+  const Written wall = Written().scaled(0.0125, 0.0125);
+  EXPECT_THAT(wall.doubts(), ElementsAre(HasSubstr("the head is 30 mm in front of screen \"wall\"")));
+}
+
+TEST(WallDoubts, RefuseAnEyeInOrBehindAScreenWithItsDistance) {
+  Written wall;
+  wall.head.z = 0.004;
+  EXPECT_THAT(wall.refusal(), HasSubstr("is 0.004 m in front of the screen; it must be at least 10 mm in front"));
+  wall.head.z = -2.0;
+  EXPECT_THAT(wall.refusal(), HasSubstr("is 2.000 m behind the screen"));
+}
+
 TEST(WallDoubts, KnowAPictureThatIsUpsideDown) {
   Written hanging;
   hanging.lower_left = {1.6, 2.3, 0};

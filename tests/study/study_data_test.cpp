@@ -99,7 +99,11 @@ TEST(StudyEvents, AreReadFromASpreadsheetsFile) {
   const std::string plain = kEventsHeader + identified("mica", "gold", "0") + identified("gold", "gold", "1");
   std::string windows;
   for (const char c : plain) windows += c == '\n' ? "\r\n" : std::string(1, c);
-  for (const std::string& bytes : {windows, "\xEF\xBB\xBF" + plain, "\xEF\xBB\xBF" + windows}) {
+  std::string quoted = "\"";
+  for (const char c : plain) quoted += c == '\t' ? "\"\t\"" : c == '\n' ? "\"\n\"" : std::string(1, c);
+  quoted.pop_back();
+  for (const std::string& bytes :
+       {windows, "\xEF\xBB\xBF" + plain, "\xEF\xBB\xBF" + windows, plain + "\n\r\n", quoted}) {
     const auto events = parse_events(bytes, "x.tsv");
     ASSERT_TRUE(events.has_value()) << events.error().message;
     ASSERT_EQ(events->trials.size(), 2U);

@@ -10,7 +10,17 @@
 // Any thread.
 namespace afm::core {
 
-enum class FileRole : std::uint8_t { Archive, LfsPointer, WebPage, OtherText, Picture, Model, LabFile, Document };
+enum class FileRole : std::uint8_t {
+  Archive,
+  LfsPointer,
+  WebPage,
+  OtherText,
+  Picture,
+  Model,
+  LabFile,
+  Document,
+  Empty
+};
 
 struct FileKind {
   std::string_view name;  // words behind "it is", such as "a gzip file"

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/printable.h"
 #include "curves/curve_error.h"
 
 namespace afm::curves {
@@ -42,8 +43,8 @@ double number_in(std::string_view field, std::string_view column, const Lines& l
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-    throw CurveError(
-        fmt::format("line {}: {} is \"{}\", not a finite number", lines.number(), column, field.substr(0, 40)));
+    throw CurveError(fmt::format("line {}: {} is \"{}\", not a finite number", lines.number(), column,
+                                 core::printable_line(field.substr(0, 40))));
   }
   return value;
 }

@@ -10,6 +10,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -56,18 +57,24 @@ constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
                            core::system_error(errno));
 }
 
+// A lower limit, as by ulimit, stays: only root may raise it.
+bool lower_limit(__rlimit_resource_t resource, rlim_t most) {
+  rlimit now{};
+  if (::getrlimit(resource, &now) != 0) return false;
+  const rlimit lowered{std::min(most, now.rlim_cur), std::min(most, now.rlim_max)};
+  return ::setrlimit(resource, &lowered) == 0;
+}
+
 void limit_resources(std::chrono::seconds processor_time) {
   // in pages; relative, because a sanitizer has mapped terabytes already
   rlim_t mapped = 0;
   std::ifstream("/proc/self/statm") >> mapped;
   const rlim_t memory = mapped * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + kMoreMemory;
-  const rlimit address_space{memory, memory}, no_core{0, 0};
+  const rlimit no_core{0, 0};
   rusage used{};
   ::getrusage(RUSAGE_SELF, &used);
   const rlim_t seconds = static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + processor_time.count());
-  const rlimit processor{seconds, seconds};
-  if (::setrlimit(RLIMIT_AS, &address_space) != 0 || ::setrlimit(RLIMIT_CPU, &processor) != 0 ||
-      ::setrlimit(RLIMIT_CORE, &no_core) != 0) {
+  if (!lower_limit(RLIMIT_AS, memory) || !lower_limit(RLIMIT_CPU, seconds) || ::setrlimit(RLIMIT_CORE, &no_core) != 0) {
     refuse("setrlimit");
   }
 }

@@ -42,9 +42,9 @@ core::Result<MapReading> damaged_reading(const std::string& why) {
 }
 
 // Why the number of a key cannot be used; empty if it can, or is not there.
-std::string take_reading_number(const nlohmann::json& json, const ReadingNumber& number, FitOptions& options) {
-  const auto found = json.find(number.key);
-  if (found == json.end()) return {};
+std::string take_reading_number(const nlohmann::json& members, const ReadingNumber& number, FitOptions& options) {
+  const auto found = members.find(number.key);
+  if (found == members.end()) return {};
   const auto value = found->get<double>();
   for (const FitNumber& row : fit_numbers()) {
     if (row.name != number.option) continue;
@@ -55,16 +55,16 @@ std::string take_reading_number(const nlohmann::json& json, const ReadingNumber&
   return {};
 }
 
-core::Result<MapReading> reading_of(const nlohmann::json& json) {
+core::Result<MapReading> reading_of(const nlohmann::json& members) {
   MapReading reading;
-  if (const auto fit = json.find("fit"); fit != json.end()) {
+  if (const auto fit = members.find("fit"); fit != members.end()) {
     const auto name = fit->get<std::string>();
     const auto* shape = std::find_if(fits::kShapes.begin(), fits::kShapes.end(),
                                      [&](const fits::ShapeRow& row) { return row.name == name; });
     if (shape == fits::kShapes.end()) return damaged_reading(fmt::format("there is no fit \"{}\"", name));
     reading.fit.shape = shape->shape;
   }
-  if (const auto base = json.find("base"); base != json.end()) {
+  if (const auto base = members.find("base"); base != members.end()) {
     const auto name = base->get<std::string>();
     const auto* row = std::find_if(fits::kBases.begin(), fits::kBases.end(),
                                    [&](const fits::BaseName& each) { return each.name == name; });
@@ -72,17 +72,17 @@ core::Result<MapReading> reading_of(const nlohmann::json& json) {
     reading.fit.base = row->base;
   }
   for (const ReadingNumber& number : kReadingNumbers) {
-    if (const std::string why = take_reading_number(json, number, reading.fit); !why.empty())
+    if (const std::string why = take_reading_number(members, number, reading.fit); !why.empty())
       return damaged_reading(why);
   }
-  if (const auto spring = json.find(kSpringKey); spring != json.end()) {
+  if (const auto spring = members.find(kSpringKey); spring != members.end()) {
     constexpr physics::ContactField kField = physics::contact_field("spring_constant");
     const auto n_per_m = spring->get<double>();
     const bool legal = n_per_m >= kField.smallest && n_per_m <= kField.largest;
     if (!legal) return damaged_reading(fmt::format("{} is {}", kSpringKey, n_per_m));
     reading.calibration.spring_constant = physics::Stiffness(n_per_m);
   }
-  if (const auto sensitivity = json.find(kSensitivityKey); sensitivity != json.end()) {
+  if (const auto sensitivity = members.find(kSensitivityKey); sensitivity != members.end()) {
     const auto m_per_v = sensitivity->get<double>();
     const bool legal = m_per_v > 0.0 && std::isfinite(m_per_v);
     if (!legal) return damaged_reading(fmt::format("{} is {}", kSensitivityKey, m_per_v));
@@ -94,16 +94,16 @@ core::Result<MapReading> reading_of(const nlohmann::json& json) {
 }  // namespace
 
 std::string text_of(const MapReading& reading) {
-  nlohmann::json json = nlohmann::json::object();
-  if (reading.fit.shape) json["fit"] = fits::row_of(*reading.fit.shape).name;
+  nlohmann::json members = nlohmann::json::object();
+  if (reading.fit.shape) members["fit"] = fits::row_of(*reading.fit.shape).name;
   if (reading.fit.base != FitOptions{}.base)
-    json["base"] = fits::kBases.at(static_cast<std::size_t>(reading.fit.base)).name;
+    members["base"] = fits::kBases.at(static_cast<std::size_t>(reading.fit.base)).name;
   for (const ReadingNumber& number : kReadingNumbers) {
-    if (const double value = number.get(reading.fit); std::isfinite(value)) json[number.key] = value;
+    if (const double value = number.get(reading.fit); std::isfinite(value)) members[number.key] = value;
   }
-  if (const auto& lever = reading.calibration.spring_constant) json[kSpringKey] = lever->si;
-  if (const auto& sensitivity = reading.calibration.sensitivity_m_per_v) json[kSensitivityKey] = *sensitivity;
-  return json.dump();
+  if (const auto& lever = reading.calibration.spring_constant) members[kSpringKey] = lever->si;
+  if (const auto& sensitivity = reading.calibration.sensitivity_m_per_v) members[kSensitivityKey] = *sensitivity;
+  return members.dump();
 }
 
 core::Result<MapReading> map_reading_of(std::string_view text) {

@@ -182,18 +182,17 @@ core::Result<void> check(const TableColumns& columns) {
   const std::size_t back = count(ColumnKind::RetractForce) + count(ColumnKind::RetractDeflection);
   if (count(ColumnKind::Height) != 1 || forces == deflections || count(ColumnKind::Force) > 1 ||
       count(ColumnKind::Deflection) > 1) {
-    return core::wrong_usage(
-        "--columns wants one height, and one force or deflection: --columns \"height:um force:nN\"");
+    return core::wrong_usage("it needs one height, and one force or deflection: \"height:um force:nN\"");
   }
   if (back > 1 || count(ColumnKind::RetractForce) > (forces ? 1U : 0U) ||
       count(ColumnKind::RetractDeflection) > (deflections ? 1U : 0U)) {
-    return core::wrong_usage("--columns: the retract has one column, of the same quantity as the approach");
+    return core::wrong_usage("the retract has one column, of the same quantity as the approach");
   }
   if (count(ColumnKind::Segment) > 1 || count(ColumnKind::Time) > 1) {
-    return core::wrong_usage("--columns names a segment or a time twice");
+    return core::wrong_usage("a segment or a time is named twice");
   }
   if (back == 1 && (count(ColumnKind::Segment) > 0 || count(ColumnKind::Time) > 0)) {
-    return core::wrong_usage("--columns: a retract beside the approach has neither segment nor time; write - for them");
+    return core::wrong_usage("a retract beside the approach has neither segment nor time; write - for them");
   }
   return {};
 }
@@ -210,15 +209,14 @@ core::Result<TableColumns> parse_table_columns(std::string_view text) {
     const auto row = std::find_if(kColumnRows.begin(), kColumnRows.end(),
                                   [&](const ColumnRow& known) { return known.name == name; });
     if (row == kColumnRows.end()) {
-      return core::wrong_usage(fmt::format(
-          "--columns: \"{}\" is not a column; write NAME:UNIT for each, with a name of {}", word, known_columns()));
+      return core::wrong_usage(
+          fmt::format("\"{}\" is not a column; write NAME:UNIT for each, with a name of {}", word, known_columns()));
     }
     const bool reversed = unit.starts_with('-');
     auto column = column_of(*row, unit.substr(reversed ? 1 : 0));
     if (!column) {
       return core::wrong_usage(fmt::format(
-          "--columns: \"{}\" has no unit of its quantity; such as height:um, force:nN, deflection:V, time:s, segment",
-          word));
+          "\"{}\" has no unit of its quantity; such as height:um, force:nN, deflection:V, time:s, segment", word));
     }
     if (reversed) column->si_per_unit = -column->si_per_unit;
     columns.push_back(*column);

@@ -165,7 +165,8 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
 void check(RecordedCurve& curve) {
   constexpr double kHighest_m = 1.0, kStrongest_n = 1.0, kStiffest_n_per_m = 1e6;
   if (curve.points.size() < physics::kFewestApproachPoints) {
-    throw CurveError(fmt::format("it has only {} points", curve.points.size()));
+    throw CurveError(fmt::format("it has only {} point{}; a curve needs {}", curve.points.size(),
+                                 curve.points.size() == 1 ? "" : "s", physics::kFewestApproachPoints));
   }
   for (const physics::CurvePoint& point : curve.points) {
     if (!(std::abs(point.z.si) <= kHighest_m) || !(std::abs(point.force.si) <= kStrongest_n)) {

@@ -20,16 +20,18 @@ namespace afm::curves {
 
 namespace {
 
+// In UTF-8 and, for the micro sign and the square, Latin-1, as programs of Windows write them.
 struct SignalUnit {
   std::string_view symbol;
   double si;
   bool volts;
 };
 constexpr std::array kSignalUnits{
-    SignalUnit{"V", 1.0, true},        SignalUnit{"mV", 1e-3, true},       SignalUnit{"uV", 1e-6, true},
-    SignalUnit{"\u00b5V", 1e-6, true}, SignalUnit{"\u03bcV", 1e-6, true},  SignalUnit{"m", 1.0, false},
-    SignalUnit{"um", 1e-6, false},     SignalUnit{"\u00b5m", 1e-6, false}, SignalUnit{"\u03bcm", 1e-6, false},
-    SignalUnit{"nm", 1e-9, false},     SignalUnit{"pm", 1e-12, false},     SignalUnit{"fm", 1e-15, false}};
+    SignalUnit{"V", 1.0, true},         SignalUnit{"mV", 1e-3, true},      SignalUnit{"uV", 1e-6, true},
+    SignalUnit{"\u00b5V", 1e-6, true},  SignalUnit{"\u03bcV", 1e-6, true}, SignalUnit{"\xb5V", 1e-6, true},
+    SignalUnit{"m", 1.0, false},        SignalUnit{"um", 1e-6, false},     SignalUnit{"\u00b5m", 1e-6, false},
+    SignalUnit{"\u03bcm", 1e-6, false}, SignalUnit{"\xb5m", 1e-6, false},  SignalUnit{"nm", 1e-9, false},
+    SignalUnit{"pm", 1e-12, false},     SignalUnit{"fm", 1e-15, false}};
 
 // Text behind the signal's unit.
 struct DensityForm {
@@ -37,10 +39,10 @@ struct DensityForm {
   bool amplitude;
 };
 constexpr std::array kDensityForms{
-    DensityForm{"2/Hz", false},       DensityForm{"^2/Hz", false},    DensityForm{"\u00b2/Hz", false},
-    DensityForm{"**2/Hz", false},     DensityForm{"/sqrt(Hz)", true}, DensityForm{"/\u221aHz", true},
-    DensityForm{"/\u221a(Hz)", true}, DensityForm{"/rtHz", true},     DensityForm{"/Hz^0.5", true},
-    DensityForm{"/Hz^(1/2)", true},   DensityForm{"/Hz^1/2", true}};
+    DensityForm{"2/Hz", false},     DensityForm{"^2/Hz", false},      DensityForm{"\u00b2/Hz", false},
+    DensityForm{"\xb2/Hz", false},  DensityForm{"**2/Hz", false},     DensityForm{"/sqrt(Hz)", true},
+    DensityForm{"/\u221aHz", true}, DensityForm{"/\u221a(Hz)", true}, DensityForm{"/rtHz", true},
+    DensityForm{"/Hz^0.5", true},   DensityForm{"/Hz^(1/2)", true},   DensityForm{"/Hz^1/2", true}};
 
 struct FrequencyUnit {
   std::string_view symbol;
@@ -120,6 +122,28 @@ void split_columns(std::string_view line, std::vector<std::string_view>& fields)
   std::erase_if(fields, [](std::string_view field) { return field.empty(); });
 }
 
+bool is_digit_of_row(char c) { return c >= '0' && c <= '9'; }
+
+// A row of numbers with decimal commas between tabs, semicolons or blanks, with points instead; any other line as it
+// is.
+std::string_view with_decimal_points(std::string_view line, std::string& row) {
+  if (line.empty() || !(is_digit_of_row(line.front()) || line.front() == '-' || line.front() == '+') ||
+      line.find('.') != std::string_view::npos || line.find(',') == std::string_view::npos) {
+    return line;
+  }
+  bool blank = false, all_decimal = true;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    blank = blank || line[i] == ' ';
+    const bool between_digits =
+        line[i] == ',' && i + 1 < line.size() && is_digit_of_row(line[i - 1]) && is_digit_of_row(line[i + 1]);
+    all_decimal = all_decimal && (line[i] != ',' || between_digits);
+  }
+  if (!all_decimal || !(blank || line.find_first_of("\t;") != std::string_view::npos)) return line;
+  row = line;
+  std::replace(row.begin(), row.end(), ',', '.');
+  return row;
+}
+
 bool is_decimal(std::string_view field) {
   field = trimmed(field);
   double value = 0;
@@ -153,7 +177,7 @@ void add_spectrum_row(const std::vector<std::string_view>& fields, const Spectru
 }
 
 Spectrum read_spectrum(std::string_view text, const SpectrumReading& reading) {
-  if (text.find('\0') != std::string_view::npos) throw CurveError("it is no text");
+  if (text.find('\0') != std::string_view::npos) throw CurveError("it is no plain text, or UTF-16; save it as UTF-8");
   std::optional<ColumnUnits> units;
   if (!reading.units.empty()) {
     units = units_in(reading.units);
@@ -161,10 +185,11 @@ Spectrum read_spectrum(std::string_view text, const SpectrumReading& reading) {
   }
   Spectrum spectrum;
   std::vector<std::string_view> fields;
+  std::string row;
   bool in_table = false, has_fractions = false, has_commas = false;
   Lines lines(text.substr(0, text.find_last_of("\r\n") + 1));
   for (std::string_view line; lines.next(line);) {
-    line = trimmed(line);
+    line = with_decimal_points(trimmed(line), row);
     if (line.empty() || (in_table && is_comment(line))) continue;
     split_columns(line, fields);
     in_table = in_table || is_decimal(fields.front());

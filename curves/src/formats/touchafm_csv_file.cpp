@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bytes/spreadsheet_text.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
 
@@ -35,18 +36,25 @@ void read_comment(std::string_view line, const Lines& lines, CurveMetadata& meta
 
 RecordedCurve read_touchafm_csv(std::string_view bytes) {
   RecordedCurve curve;
+  const auto undone = undo_spreadsheet(bytes, "z_m");
+  if (undone) {
+    bytes = *undone;
+    curve.metadata.remarks.emplace_back(kSavedBySpreadsheet);
+  }
   curve.metadata.instrument = curve.metadata.software = kComputedBy;
   Lines lines(bytes);
   std::string_view line;
   double samples = 0.0;
   bool more = lines.next(line);
-  for (; more && line.starts_with('#'); more = lines.next(line)) read_comment(line, lines, curve.metadata, samples);
+  for (; more && (line.starts_with('#') || trimmed(line).empty()); more = lines.next(line))
+    if (line.starts_with('#')) read_comment(line, lines, curve.metadata, samples);
 
   std::vector<std::string_view> names, fields;
   split(line, ',', names);
   const std::size_t z = column_in(names, "z_m"), force = column_in(names, "force_N"),
                     branch = column_in(names, "branch");
   while (lines.next(line)) {
+    if (trimmed(line).empty()) continue;
     split(line, ',', fields);
     if (fields.size() != names.size()) {
       throw CurveError(
@@ -63,7 +71,8 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
                             fields[branch] == "approach" ? physics::Branch::Approach : physics::Branch::Retract});
   }
   // a complete cycle includes the way up, and its last line has a line end
-  if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract || !bytes.ends_with('\n')) {
+  if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract ||
+      !(bytes.ends_with('\n') || bytes.ends_with('\r'))) {
     throw CurveError("it is cut short");
   }
   if (const auto count = static_cast<double>(curve.points.size()); samples > 0.0 && count != samples) {

@@ -11,6 +11,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "bytes/spreadsheet_text.h"
 #include "bytes/text_table.h"
 #include "core/printable.h"
 #include "core/version.h"
@@ -250,8 +251,11 @@ std::string workshop_bytes(const RecordedCurve& curve) {
 }
 
 RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading) {
+  const auto undone = undo_spreadsheet(bytes, kFirstColumn);
+  if (undone) bytes = *undone;
   Lines lines(bytes);
   Header header = read_header(lines);
+  if (undone) header.metadata.remarks.emplace_back(kSavedBySpreadsheet);
   const Columns extend = columns_of(header, "Extend", reading), pull = columns_of(header, "Retract", reading);
 
   RecordedCurve curve{{}, {}, header.metadata};

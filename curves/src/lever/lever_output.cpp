@@ -7,6 +7,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "core/written_by.h"
 #include "physics/cantilever.h"
@@ -110,6 +111,21 @@ void thermal_lines(const LeverOptions& options, const LeverCalibration& result, 
   lines.note(
       fmt::format("if the floor were noise of the lever, k would be off by {:.3g} %", 100.0 * thermal.floor_bias));
   lines.note("the interval covers only the scatter of the spectrum");
+}
+
+// What Sader's method does not hold for (docs/lever.md).
+std::vector<std::string> sader_doubts(const LeverInputs& in) {
+  constexpr double kLeastAspect = 3.0, kLeastQuality = 1.0;
+  std::vector<std::string> doubts;
+  const double aspect = *in[LeverInput::Length] / *in[LeverInput::Width];
+  if (aspect < kLeastAspect) {
+    doubts.push_back(
+        fmt::format("the lever is {:.2g} times as long as it is wide, and the method is for {:g} and more{}", aspect,
+                    kLeastAspect, aspect < 1.0 ? ": are length and width exchanged?" : ""));
+  }
+  if (*in[LeverInput::QualityFactor] <= kLeastQuality)
+    doubts.emplace_back("the method is for quality factors well above 1");
+  return doubts;
 }
 
 // Noise of the free lever at the tip.
@@ -233,6 +249,7 @@ std::string lever_text(const LeverOptions& options, const LeverCalibration& resu
     lines.title("spring constant by Sader's method");
     lines.line("spring constant k", stiffness_text(result.sader->k_n_per_m));
     constant_lines(options, in, *result.sader, lines);
+    for (const std::string& doubt : sader_doubts(in)) lines.note("doubtful: " + doubt);
   }
   if (result.gci) {
     lines.title("spring constant by the Global Calibration Initiative, A Q f^1.3");
@@ -253,6 +270,7 @@ LeverJson lever_json(const LeverOptions& options, const LeverCalibration& result
       result.sensitivity ? json_of(result.sensitivity->corrected_m_per_v) : LeverJson();
   json["thermal"] = result.thermal ? thermal_json(options, result) : LeverJson();
   json["sader"] = result.sader ? json_of(options, result.inputs, *result.sader) : LeverJson();
+  if (result.sader) json["sader"]["doubts"] = sader_doubts(result.inputs);
   json["gci"] = result.gci ? json_of(options, result.inputs, *result.gci) : LeverJson();
   json["noise"] = LeverJson();
   if (!result.spring_constant_n_per_m()) return json;

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/json_text.h"
 #include "core/system_error.h"
 #include "core/text_lines.h"
 #include "core/whole_file.h"
@@ -180,7 +181,8 @@ core::Result<std::int64_t> started_day(const std::string& folder, std::optional<
   if (known) first = json["Study"][kFirstDay].get<std::int64_t>();
   if (!known && day) json["Study"][kFirstDay] = *day;
   if (changed || (!known && day)) {
-    if (auto written = core::write_file(path, json.dump(2) + "\n"); !written) return tl::unexpected(written.error());
+    if (auto written = core::write_file(path, core::json_text(json, 2) + "\n"); !written)
+      return tl::unexpected(written.error());
   }
   return day ? *day - first : 0;
 }
@@ -280,7 +282,7 @@ core::Result<void> DataSet::note_sound_lost(double onset_s) {
     return core::failure(core::ErrorCategory::BadInputFile, description_path_ + ": is no longer the lesson's JSON");
   }
   json["Lesson"]["sound_lost_s"] = onset_s;
-  return core::write_file(description_path_, json.dump(2) + "\n");
+  return core::write_file(description_path_, core::json_text(json, 2) + "\n");
 }
 
 core::Result<void> DataSet::finish(LessonEnd end) {

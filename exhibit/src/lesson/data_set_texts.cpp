@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "core/json_text.h"
 #include "core/version.h"
 #include "study/age_band.h"
 
@@ -121,7 +122,7 @@ std::vector<RootFile> root_files() {
   ordered_json description{{"Name", "A study with TouchAFM"}, {"BIDSVersion", "1.8.0"}, {"DatasetType", "raw"}};
   description["GeneratedBy"] = ordered_json::array();
   description["GeneratedBy"].push_back(ordered_json::object({{"Name", "TouchAFM"}, {"Version", core::kVersion}}));
-  return {{{"dataset_description.json"}, description.dump(2) + "\n"},
+  return {{{"dataset_description.json"}, core::json_text(description, 2) + "\n"},
           {{"README", "README.md", "README.rst", "README.txt"}, kReadme},
           {{".bidsignore"}, "*_session/\n"}};
 }
@@ -170,7 +171,7 @@ std::string events_json(const Lesson& lesson, const DataSetEntry& entry, std::in
   if (!entry.observer.empty()) json["Lesson"]["observer"] = ordered_json::parse(entry.observer);
   json[kPresentation] = presentation();
   if (!entry.samples.empty()) json["Samples"] = ordered_json::parse(entry.samples);
-  return json.dump(2) + "\n";
+  return core::json_text(json, 2) + "\n";
 }
 
 std::string events_header() {

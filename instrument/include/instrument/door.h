@@ -23,6 +23,8 @@ class Door {
   // Limit of a request. A client that sends more without ending one is sent too_long() and given up.
   virtual std::size_t most_request_bytes() const = 0;
   virtual std::string_view too_long() const = 0;
+  // Whether the request at the beginning of `bytes`, of which not all has come, will be longer.
+  virtual bool announces_too_much(std::string_view /*bytes*/) const { return false; }
 
   // Sends bytes; false: nobody reads any more.
   using Send = std::function<bool(std::string_view bytes)>;

@@ -40,6 +40,7 @@ class NanonisDoor final : public Door {
   std::optional<std::size_t> request_size(std::string_view bytes) const override;
   std::size_t most_request_bytes() const override { return std::size_t{1} << 16; }
   std::string_view too_long() const override { return {}; }
+  bool announces_too_much(std::string_view bytes) const override;
   Then answer(std::string_view request, const Send& send) override;
 
  private:

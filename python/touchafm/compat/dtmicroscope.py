@@ -45,6 +45,8 @@ class AFM_Microscope:
     def __init__(self, data_path: Optional[Union[str, os.PathLike[str]]] = None, **scan: Any) -> None:
         self.name, self.instrument_vendor, self.instrument_type = "AFM Microscope", "TouchAFM", "AFM"
         self.data_source: Optional[str] = None
+        self._channels: list[str] = []
+        self._units: dict[str, str] = {}
         self.scan_rate: float = scan.pop("rate", 0.5)  #: lines per second
         self.x = self.y = 0.0
         self._keywords: dict[str, Any] = dict(scan) if data_path is None else {"sample": data_path, **scan}
@@ -52,8 +54,8 @@ class AFM_Microscope:
     def setup_microscope(self, data_source: str = "mica", dset_subset: None = None) -> None:
         """Puts this material of touchafm.materials() below the tip, in the middle of a first image. dset_subset: no effect."""
         del dset_subset
+        image = self._image(None, None, data_source)
         self.data_source = data_source
-        image = self._image(None, None)
         self._channels = [name for name in image.channels if not name.endswith(_RETRACE)]
         self._units = image.units
         self.scan_ar = np.stack([image[name] for name in self._channels])
@@ -66,6 +68,7 @@ class AFM_Microscope:
 
     def get_dataset_info(self) -> list[tuple[str, list[Any]]]:
         """Channels of an image and the spectrum, with their units."""
+        self._material()
         names = [*self._channels, "Force"]
         return [("channels", names), ("signals", names), ("units", [*(self._units[name] for name in self._channels), "N"]),
                 ("scans", list(range(len(self._channels)))), ("spectra", [len(self._channels)]), ("point_clouds", [])]
@@ -77,6 +80,9 @@ class AFM_Microscope:
         x: ValueError for the other."""
         if direction != "horizontal":
             raise ValueError("direction: the lines of an image run along x, \"horizontal\"")
+        if trace not in ("forward", "backward"):
+            raise ValueError(f"trace: \"{trace}\" is neither \"forward\" nor \"backward\"")
+        self._material()
         if channels is not None and not isinstance(channels, list):
             raise TypeError("channels: give a list of names, or None for all")
         names = [name for name in channels or self._channels if name in self._channels]
@@ -97,6 +103,9 @@ class AFM_Microscope:
 
     def go_to(self, x: float, y: float) -> bool:
         """Moves the tip to a place, m; one outside the image becomes the nearest inside, with a warning."""
+        self._material()
+        if not np.isfinite([x, y]).all():
+            raise ValueError(f"{x} m, {y} m is no place")
         inside = float(np.clip(x, self.x_min, self.x_max)), float(np.clip(y, self.y_min, self.y_max))
         if inside != (x, y):
             warnings.warn(f"{x} m, {y} m is outside the image; the tip is at {inside[0]} m, {inside[1]} m", stacklevel=2)
@@ -108,6 +117,8 @@ class AFM_Microscope:
                              channels: _Channels = None, modification: _Modification = None) -> _Floats:
         """The line of an image nearest to y = coord, m, or x = coord of a vertical one: channels by pixels."""
         axis = self._axis(direction)
+        if not np.isfinite(coord):
+            raise ValueError(f"coord: {coord} m is no place")
         image = self.get_scan(channels, modification, trace=trace)
         places = self.y_coords if axis == 1 else self.x_coords
         line: _Floats = np.take(image, int(np.argmin(np.abs(places - coord))), axis=axis)
@@ -119,6 +130,9 @@ class AFM_Microscope:
         points = np.asarray(path_points, dtype=float)
         if points.ndim != 2 or points.shape[1] != 2 or len(points) < 2:
             raise ValueError(f"path_points: give two or more places (x, y), not an array of {points.shape}")
+        self._material()
+        if not np.isfinite(points).all():
+            raise ValueError("path_points: one of the places is not finite")
         columns = np.abs(self.x_coords[:, None] - points[:, 0]).argmin(axis=0)
         rows = np.abs(self.y_coords[:, None] - points[:, 1]).argmin(axis=0)
         places = [np.rint(np.linspace(begin, end, np.abs(end - begin).max() + 1)).astype(int)
@@ -140,9 +154,10 @@ class AFM_Microscope:
             raise ValueError("there is no sample yet; call setup_microscope() first")
         return self.data_source
 
-    def _image(self, modification: _Modification, scan_rate: Optional[float]) -> Scan:
-        self.scan_rate = self.scan_rate if scan_rate is None else scan_rate
-        given: dict[str, Any] = {"rate": self.scan_rate, **self._keywords}
+    def _image(self, modification: _Modification, scan_rate: Optional[float], material: Optional[str] = None) -> Scan:
+        """An image of a material, by default the one below the tip. What is refused changes nothing."""
+        rate = self.scan_rate if scan_rate is None else scan_rate
+        given: dict[str, Any] = {"rate": rate, **self._keywords}
         if not isinstance(modification, (list, type(None))):
             raise ValueError("modification: give a list of dicts with \"effect\" and \"kwargs\"")
         for each in modification or ():
@@ -154,7 +169,10 @@ class AFM_Microscope:
                 raise ValueError(f"{each['effect']} takes {', '.join(sorted(known))}, not {', '.join(sorted(unknown))}")
             given.update(each.get("kwargs", {}))
         radius = given.pop("tip_radius", None)
-        return scan(Contact.material(self._material(), **({} if radius is None else {"tip_radius": radius})), **given)
+        name = self._material() if material is None else material
+        image = scan(Contact.material(name, **({} if radius is None else {"tip_radius": radius})), **given)
+        self.scan_rate = rate
+        return image
 
     @staticmethod
     def _axis(direction: str) -> int:

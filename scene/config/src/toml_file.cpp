@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 
+#include "core/file_kind.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 
@@ -21,6 +23,16 @@ constexpr std::size_t kMostParts = 16;
 
 core::Error bad(const char* kind, const std::string& path, const std::string& what) {
   return {core::ErrorCategory::BadInputFile, fmt::format("{} {}: {}", kind, path, what)};
+}
+
+// What a file is that is no text in UTF-8, such as a download that failed, and what to do; empty for any other.
+std::string other_file(std::string_view text) {
+  const auto kind = core::file_kind(text.substr(0, core::kFileKindBytes), text.size());
+  if (!kind) return "";
+  using core::FileRole;
+  constexpr std::array kRoles{FileRole::Archive, FileRole::LfsPointer, FileRole::WebPage, FileRole::OtherText};
+  if (std::find(kRoles.begin(), kRoles.end(), kind->role) == kRoles.end()) return "";
+  return fmt::format("it is {}; {}", kind->name, core::remedy_of(kind->role));
 }
 
 // The text behind a string that begins at `at`; the text's end if it does not end.
@@ -90,6 +102,7 @@ core::Result<toml::table> parse_toml(const char* kind, const std::string& path) 
   if (const auto line = line_of_too_long_key(*text)) {
     return tl::unexpected(bad(kind, path, fmt::format("line {}: a key has more than {} parts", *line, kMostParts)));
   }
+  if (const std::string why = other_file(*text); !why.empty()) return tl::unexpected(bad(kind, path, why));
   try {
     toml::table root = toml::parse(*text, path);
     if (const auto line = line_of_control_character(root)) {
@@ -101,8 +114,11 @@ core::Result<toml::table> parse_toml(const char* kind, const std::string& path) 
     return root;
   } catch (const toml::parse_error& error) {
     // it quotes what it saw, which may be the end of the line
+    const std::string what = core::printable_line(error.description());
+    const bool other_text = what.find("utf-8") != std::string::npos;
     return tl::unexpected(bad(
-        kind, path, fmt::format("line {}: {}", error.source().begin.line, core::printable_line(error.description()))));
+        kind, path,
+        fmt::format("line {}: {}{}", error.source().begin.line, what, other_text ? "; save the file in UTF-8" : "")));
   }
 }
 

@@ -159,9 +159,10 @@ core::Result<EyeView> off_axis_view(const Screen& screen, const glm::dvec3& eye_
   const double distance = -glm::dot(to_lower_left, normal);
   if (!(distance >= kSmallestEyeDistanceM)) {
     return failure(ErrorCategory::BadInputFile,
-                   fmt::format("screen \"{}\": the eye at {} is {:.3f} m behind or in the screen; it must be at least "
+                   fmt::format("screen \"{}\": the eye at {} is {:.3f} m {} the screen; it must be at least "
                                "{} mm in front, on the side where lower_left appears on the left",
-                               screen.name, text(eye_position_m), -distance, kSmallestEyeDistanceM * 1e3));
+                               screen.name, text(eye_position_m), std::abs(distance),
+                               distance > 0.0 ? "in front of" : "behind", kSmallestEyeDistanceM * 1e3));
   }
 
   const double scale = near_m / distance;

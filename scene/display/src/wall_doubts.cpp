@@ -20,6 +20,8 @@ namespace {
 constexpr double kLongestEdgeM = 60.0;     // the largest screens of open-air stages
 constexpr double kFarthestHeadM = 60.0;    // a wall of 3 m fills three degrees there
 constexpr double kSmallestExtentM = 0.03;  // a watch
+constexpr double kNearestHeadM = 0.1;      // nearer than anybody can focus
+constexpr double kGrazing = 0.17;          // sine of ten degrees
 constexpr double kFlat = 0.95;             // sine of 72 degrees: floors, ceilings and tables within 18 degrees
 constexpr double kUpright = 0.866;         // cosine of 30 degrees
 constexpr double kFacing = 0.26;           // cosine of 75 degrees between the lines of the eyes and of the screen
@@ -193,11 +195,33 @@ void doubt_distance(const Wall& wall, const Viewer& viewer, std::vector<std::str
   }
   for (const Screen& screen : wall.screens) {
     const double distance_m = glm::dot(head_m - screen.lower_left, screen.normal());
-    if (is_flat(screen) || distance_m >= kLeastWidths * screen.width_m()) continue;
+    if (is_flat(screen) || (distance_m >= kLeastWidths * screen.width_m() && distance_m >= kNearestHeadM)) continue;
     doubts.push_back(fmt::format("{}: the head is {:.0f} mm in front of screen \"{}\", which is {:.2f} m wide: {}",
                                  who(viewer), distance_m * 1e3, screen.name, screen.width_m(),
                                  unit_or(wall, viewer, "check sweet_spot and the corners")));
   }
+}
+
+// A head far beside every screen sees strips of them.
+void doubt_side(const Wall& wall, const Viewer& viewer, std::vector<std::string>& doubts) {
+  const glm::dvec3& head_m = viewer.sweet_spot.position_m;
+  double best = 0.0;
+  const Screen* faced = nullptr;
+  for (const Screen& screen : wall.screens) {
+    const glm::dvec3 right = screen.lower_right - screen.lower_left, up = screen.upper_left - screen.lower_left;
+    const glm::dvec3 to_head = head_m - screen.lower_left;
+    const double along = std::clamp(glm::dot(to_head, right) / glm::dot(right, right), 0.0, 1.0),
+                 high = std::clamp(glm::dot(to_head, up) / glm::dot(up, up), 0.0, 1.0);
+    const double nearest_m = glm::distance(head_m, screen.lower_left + along * right + high * up);
+    const double sine = glm::dot(to_head, screen.normal()) / nearest_m;
+    if (sine > best) faced = &screen;
+    best = std::max(best, sine);
+  }
+  if (faced == nullptr || best >= kGrazing) return;
+  doubts.push_back(fmt::format(
+      "{}: the head is {:.2f} m in front of screen \"{}\" but so far beside it that its picture is a strip: check "
+      "sweet_spot and the corners",
+      who(viewer), glm::dot(head_m - faced->lower_left, faced->normal()), faced->name));
 }
 
 void doubt_floor(const Wall& wall, const Viewer& viewer, std::vector<std::string>& doubts) {
@@ -247,6 +271,7 @@ std::vector<std::string> doubts_of(const Wall& wall) {
   doubts.insert(doubts.end(), turned.begin(), turned.end());
   for (const Viewer& viewer : wall.viewers) {
     doubt_distance(wall, viewer, doubts);
+    doubt_side(wall, viewer, doubts);
     if (!turned.empty()) continue;  // the same cause
     doubt_turn(wall, viewer, doubts);
     doubt_floor(wall, viewer, doubts);

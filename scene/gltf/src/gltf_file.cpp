@@ -73,10 +73,28 @@ void check_text(std::string_view text) {
   }
 }
 
+// Some exporters write null for a member without a value; other viewers take it as absent. Extras stay as they are.
+void leave_out_nulls(Json& value) {
+  if (value.is_object()) {
+    for (auto member = value.begin(); member != value.end();) {
+      if (member->is_null()) {
+        member = value.erase(member);
+        continue;
+      }
+      if (member.key() != "extras") leave_out_nulls(*member);
+      ++member;
+    }
+  } else if (value.is_array()) {
+    for (Json& element : value) leave_out_nulls(element);
+  }
+}
+
 Json parse_text(std::string_view text) {
   check_text(text);
   try {
-    return Json::parse(text.begin(), text.end());
+    Json document = Json::parse(text.begin(), text.end());
+    leave_out_nulls(document);
+    return document;
   } catch (const Json::parse_error& error) {
     throw GltfError(fmt::format("its JSON is invalid at byte {}; export it again", error.byte));
   } catch (const Json::exception&) {  // a number too large for double
@@ -107,6 +125,7 @@ Chunks split(const Bytes& bytes) {
   }
   // bytes behind the announced end are ignored, as other readers do
   const std::size_t end = little_endian(bytes, 8);
+  if (end < kHeader + kChunkHeader) throw GltfError(fmt::format("its header announces {} bytes; export it again", end));
   const std::string disagreement =
       end == bytes.size() ? "" : fmt::format("its header announces {} bytes but it has {}: ", end, bytes.size());
   if (end > bytes.size()) throw GltfError(disagreement + "it is cut off; copy it again");

@@ -16,8 +16,12 @@ namespace {
 void check_header(const Json& document, GltfWarnings& notes) {
   const Json& asset = document["asset"];
   const std::string version = asset["version"];
-  if (version.rfind("2.", 0) != 0 || asset.value("minVersion", "2.0") != "2.0") {
+  if (version.rfind("2.", 0) != 0) {
     throw GltfError(fmt::format("it is glTF of version '{}'; export it as glTF 2.0", version.substr(0, 20)));
+  }
+  if (const std::string least = asset.value("minVersion", "2.0"); least != "2.0") {
+    throw GltfError(
+        fmt::format("it needs a reader of glTF '{}' (minVersion); export it as glTF 2.0", least.substr(0, 20)));
   }
   notes.generator = asset.value("generator", "");
   const std::set<std::string_view> understood = gltf_extensions();

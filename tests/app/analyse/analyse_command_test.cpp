@@ -143,6 +143,16 @@ TEST(AnalyseCommand, RefusesWrongOptionsAndFilesAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(options.out));
 }
 
+TEST(AnalyseCommand, SaysHowATableIsRead) {
+  const support::ScratchFolder folder;
+  AnalyseOptions options;
+  options.file = folder.write("table.txt", "height force\n1 0\n2 0\n");
+  EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile), HasSubstr("--columns \"height:um force:nN\""));
+  options.file = folder.write("empty.txt", "");
+  EXPECT_THAT(error_of(options, core::ErrorCategory::BadInputFile),
+              HasSubstr("it is an empty file; copy or export it again"));
+}
+
 TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
   EXPECT_DOUBLE_EQ(parse_sensitivity("70nm/V").value(), 70e-9);
   for (const char* wrong : {"70nm", "70/V", "/V", "V", "-70nm/V", "0nm/V"}) {

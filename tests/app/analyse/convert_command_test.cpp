@@ -77,6 +77,17 @@ TEST(WrittenFile, IsNoneThatTheCommandReads) {
     expect_refusal(run_touchafm(command), 2, "it is a curve, which a picture would replace");
   }
   expect_refusal(run_touchafm("material gold --map " + image), 2, "it is an image, which a picture would replace");
+  expect_refusal(run_touchafm("curve --material mica --format svg --out " + curve), 2, "which would be lost");
+  expect_refusal(run_touchafm("curve --material mica --out " + image), 2, "it is an image, which would be lost");
+  expect_refusal(run_touchafm("curve --material mica --out " + folder.file("mica.gwy")), 2, "a name for an image");
+  const std::string igor = folder.write("curve.ibw", core::read_file(data("dwell.ibw")).value());
+  expect_refusal(run_touchafm("curve --material mica --out " + igor), 2, "it is a curve, which would be lost");
+  const std::string session =
+      folder.write("hand.afms", core::read_file(support::source("tests/formats/0.2.0/session-mica.afms")).value());
+  expect_refusal(run_touchafm("curve --material mica --json --out " + session), 2,
+                 "it is a session, which would be lost");
+  for (int twice = 0; twice < 2; ++twice)
+    EXPECT_EQ(run_touchafm("curve --material mica --out " + folder.file("mica.txt")).exit_code, 0);
   EXPECT_EQ(core::read_file(curve).value(), core::read_file(data("bom.tab")).value());
   EXPECT_EQ(core::read_file(image).value(), core::read_file(data("qnm-log.spm")).value());
   EXPECT_EQ(run_touchafm("analyse " + curve + " --out " + folder.file("new.svg")).exit_code, 0);

@@ -170,6 +170,14 @@ TEST(FitBatch, ReplacesNoTable) {
   EXPECT_EQ(core::read_file(folder.file("out/fits.tsv")).value(), before);
 }
 
+TEST(FitBatch, NamesAFolderThatCannotBe) {
+  const support::ScratchFolder folder;
+  const std::string file = folder.write("taken", "x");
+  const auto done = fit_files(files_in(folder), paraboloid(file), 1);
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("--out " + file + ": it is no folder"));
+}
+
 TEST(FitBatch, OfFilesWithoutACurveFailsAndSaysWhere) {
   const support::ScratchFolder folder;
   const auto done = fit_files({folder.file("a"), folder.file("b")}, paraboloid(folder.file("out")), 2);
