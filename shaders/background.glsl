@@ -3,7 +3,9 @@
 // continues from tile to tile and around a corner. Projectors leak one eye into the other, so nothing here is black or
 // bright. `place` is 0..1 across an eye image, y down. Computed from between the eyes, the gradient is the same in
 // both: it lies in the wall's plane, without disparity.
-vec3 background_color(FrameBlock frame, vec2 place) {
+#include "frame.glsl"
+
+vec3 background_color(vec2 place) {
   vec3 direction = normalize(frame.screen[0].xyz + place.x * frame.screen[1].xyz + place.y * frame.screen[2].xyz);
   vec3 top = vec3(0.020, 0.026, 0.040);
   vec3 bottom = vec3(0.046, 0.055, 0.073);

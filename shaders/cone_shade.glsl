@@ -2,9 +2,11 @@
 // Share of the key light that arrives past a cone on its rounded end. Of the balls along the cone's axis, the one that
 // the ray to the light passes nearest covers part of the softbox. The soft edge is as wide as the softbox seen from
 // there, so the shade looks the same at every scale.
+#include "frame.glsl"
+
 const float kConeSoftness = 0.32;  // half the softbox's width, as a tangent
 
-float past_cone(FrameBlock frame, vec3 place) {
+float past_cone(vec3 place) {
   vec3 light = frame.light_direction.xyz, axis = frame.cone_axis.xyz;
   vec3 from = place - frame.cone_apex.xyz;
 

@@ -4,10 +4,10 @@
 #extension GL_EXT_multiview : require
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
+#include "frame.glsl"
 #include "lighting.glsl"
 #include "view.glsl"
 
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
@@ -37,5 +37,5 @@ void main() {
   lobe = vec4(its.border, its.spread);
   drawn_surface = vec4(draw.surface.xy, draw.bend.z, draw.surface.w);
   drawn_emissive = draw.emissive;
-  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+  gl_Position = view_clip_from_room() * vec4(room_position, 1.0);
 }

@@ -6,6 +6,7 @@
 #include "interface.glsl.h"
 #include "background.glsl"
 #include "contact.glsl"
+#include "frame.glsl"
 #include "lighting.glsl"
 #include "thin_film.glsl"
 #include "tone.glsl"
@@ -13,7 +14,6 @@
 
 layout(constant_id = AFM_CONSTANT_VARIANT) const uint kVariant = 0;
 
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 // in the order of scene::TextureSlot
@@ -146,7 +146,7 @@ void put(vec3 shown, float coverage) {
 void main() {
   vec4 color = vertex_color * AFM_TEXEL(kBaseColor);
   vec3 emitted = drawn_emissive.rgb * AFM_TEXEL(kEmissive).rgb;
-  vec3 to_eye = normalize(view_eye_position(frame) - room_position);
+  vec3 to_eye = normalize(view_eye_position() - room_position);
   vec3 front = normalize(room_normal);
   float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
   vec3 normal = facing * front;

@@ -4,9 +4,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 #include "beam.glsl"
+#include "frame.glsl"
 #include "view.glsl"
 
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
@@ -38,7 +38,7 @@ void main() {
   drawn_surface = draw.surface;
   drawn_emissive = draw.emissive;
   shadow_place = place_in_shadow_map(room_position, normalize(room_normal), draw.surface.w);
-  mat4 clip = view_clip_from_room(frame);
+  mat4 clip = view_clip_from_room();
   gl_Position = clip * vec4(room_position, 1.0);
   float pixels_per_metre = 0.5 * frame.punctual_count.z * frame.target_size.y * length(vec3(clip[0].y, clip[1].y, clip[2].y)) / gl_Position.w;
   float largest = frame.punctual_count.y;

@@ -5,13 +5,13 @@
 #include "interface.glsl.h"
 #include "beam.glsl"
 #include "contact.glsl"
+#include "frame.glsl"
 #include "lighting.glsl"
 #include "tone.glsl"
 #include "view.glsl"
 
 // Shades opaque surfaces at their vertices if their triangles are about as small as pixels. A device shades at least a
 // few pixels of every triangle, so each pixel would otherwise be shaded several times.
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
@@ -34,5 +34,5 @@ void main() {
   shadow_place = place_in_shadow_map(room_position, room_normal, draw.surface.w);
   Surface s = surface_at(room_position, room_normal, (color * draw.base_color).rgb, draw.surface);
   shown = srgb_from_linear(shaded(room_position, s, draw.emissive, lobe_of(s.roughness), key_light_visibility()));
-  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+  gl_Position = view_clip_from_room() * vec4(room_position, 1.0);
 }

@@ -6,13 +6,13 @@
 #include "background.glsl"
 #include "cone_shade.glsl"
 #include "contact.glsl"
+#include "frame.glsl"
 #include "lighting.glsl"
 #include "tone.glsl"
 #include "view.glsl"
 
 layout(constant_id = AFM_CONSTANT_VARIANT) const uint kVariant = 0;
 
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 room_position;
@@ -46,7 +46,7 @@ void main() {
     shadow_place = has_back ? place_in_shadow_map(room_position, normal, drawn_surface.w) : front_shadow_place;
     float visible = key_light_visibility();
     if ((kVariant & AFM_FEATURE_FOG) != 0u) {
-      visible = mix(1.0, visible, frame.light_direction.w) * past_cone(frame, room_position);
+      visible = mix(1.0, visible, frame.light_direction.w) * past_cone(room_position);
     }
     shown = shaded(room_position, s, drawn_emissive, Lobe(lobe.x, lobe.yzw), visible);
     if ((kVariant & AFM_FEATURE_FOG) != 0u) {
@@ -57,7 +57,7 @@ void main() {
 
   // fully fogged pixels show the background
   if ((kVariant & AFM_FEATURE_FOG) != 0u) {
-    shown = mix(shown, background_color(frame, gl_FragCoord.xy * frame.target_size.zw), fog(frame, room_position));
+    shown = mix(shown, background_color(gl_FragCoord.xy * frame.target_size.zw), fog(room_position));
   }
 
   // premultiplied, so that opaque and blended primitives share this shader

@@ -3,9 +3,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "interface.glsl.h"
 #include "contact.glsl"
+#include "frame.glsl"
 #include "tone.glsl"
 
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
 layout(location = 0) in vec3 room_position;
@@ -20,6 +20,6 @@ layout(location = 0) out vec4 out_color;
 
 void main() {
   vec3 radiance = mix(radiance_in_shadow, radiance_in_light, key_light_visibility());
-  vec3 shown = tone_map(shaded_by_contact(frame, room_position, radiance) + own.rgb);
+  vec3 shown = tone_map(shaded_by_contact(room_position, radiance) + own.rgb);
   out_color = vec4(srgb_from_linear(shown) * own.a, own.a);
 }

@@ -5,6 +5,7 @@
 #include "interface.glsl.h"
 #include "beam.glsl"
 #include "contact.glsl"
+#include "frame.glsl"
 #include "lighting.glsl"
 #include "tone.glsl"
 #include "view.glsl"
@@ -12,7 +13,6 @@
 // Computes the light on rough surfaces with small turns from vertex to vertex, such as the floor, at the vertices: it
 // varies slowly there. Computed once with the key light and once without. The edges of shadows and the shade at the
 // contact are sharp: smooth.frag.
-layout(set = 0, binding = AFM_BINDING_FRAME, std140) uniform Frame { FrameBlock frame; };
 layout(set = AFM_SET_DRAW, binding = AFM_BINDING_DRAW, std140) uniform Draw { DrawBlock draw; };
 
 layout(location = 0) in vec3 position;
@@ -39,5 +39,5 @@ void main() {
   radiance_in_shadow = radiance(s, lobe, 0.0);
   radiance_in_light = radiance(s, lobe, 1.0);
   own = vec4(own_light(s, draw.emissive), its_color.a);
-  gl_Position = view_clip_from_room(frame) * vec4(room_position, 1.0);
+  gl_Position = view_clip_from_room() * vec4(room_position, 1.0);
 }

@@ -62,7 +62,7 @@ glm::uvec2 eye_size(const RenderBenchOptions& options) {
 }
 
 core::Result<RenderSubject> first_subject(const RenderBenchOptions& options) {
-  if (!options.gltf.empty()) return gltf_subject(options.gltf.front(), eye_size(options));
+  if (!options.gltf.empty()) return gltf_subject(options.gltf.front(), eye_size(options), 1);
   const auto stage = load_wall(options);
   if (!stage) return tl::unexpected(stage.error());
   return wall_subject(*stage, options.eye_width, WallMotion::None);

@@ -22,7 +22,6 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kFrames = 24;
 constexpr int kGrowthFrames = 4;  // each holds the places of all nodes
 
 // ---- the wall ----
@@ -99,7 +98,7 @@ core::Result<std::array<scene::EyeView, 2>> eyes_around(const Box& box, double y
 }
 
 core::Result<RenderSubject> standing_alone(std::string name, scene::Scene scene, glm::uvec2 eye_px,
-                                           int frames = kFrames) {
+                                           int frames = kSubjectFrames) {
   const std::vector<glm::dmat4> room = room_from_nodes(scene);
   const Box box = box_of(scene, room);
   if (!(glm::length(box.high - box.low) > 0.0)) {
@@ -203,11 +202,11 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
   const double stiffness = materials[material].setup.material.contact.spring_constant.si;
   const exhibit::FrameBuilder frames(stage.wall_scene, materials, stage.eyes);
   std::vector<exhibit::CycleCurve> curves(materials.size());
-  for (int i = 0; i < kFrames; ++i) {
+  for (int i = 0; i < kSubjectFrames; ++i) {
     exhibit::Moment moment;
     for (int tick = 0; tick < kTicksPerFrame; ++tick) {
       scene::TipSample sample;
-      const double z_m = height_at((i + static_cast<double>(tick) / kTicksPerFrame) / kFrames, release_m);
+      const double z_m = height_at((i + static_cast<double>(tick) / kTicksPerFrame) / kSubjectFrames, release_m);
       const double force_n = z_m < release_m ? materials[material].tables->attached.force(physics::Length(z_m)).si : 0;
       sample.tip = {.z_m = z_m, .force_n = force_n, .deflection_m = -force_n / stiffness};
       sample.servo_state = scene::ServoState::Running;
@@ -218,12 +217,12 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
     moment.wall.material = material;
     moment.servo_state = scene::ServoState::Running;
     moment.phase = physics::Phase::Attached;
-    moment.retracting = 2 * i > kFrames;
+    moment.retracting = 2 * i > kSubjectFrames;
     moment.guidance = exhibit::step_text(stage.phrases(), exhibit::Hint::LetGo, {});
     moment.curves = curves;
     subject.frames.push_back(frames.build(moment));
     if (motion != WallMotion::TipAndHead) continue;
-    const auto eyes = eyes_of_moved_head(stage, 2.0 * glm::pi<double>() * i / kFrames);
+    const auto eyes = eyes_of_moved_head(stage, 2.0 * glm::pi<double>() * i / kSubjectFrames);
     if (!eyes) return tl::unexpected(eyes.error());
     subject.frames.back().eyes = *eyes;
   }
@@ -231,10 +230,10 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
   return subject;
 }
 
-core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye_px) {
+core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye_px, int frames) {
   auto scene = scene::load_gltf(path);
   if (!scene) return tl::unexpected(scene.error());
-  return standing_alone(path, std::move(*scene), eye_px);
+  return standing_alone(path, std::move(*scene), eye_px, frames);
 }
 
 RenderSubject hills_subject(std::uint32_t quads, glm::uvec2 eye_px) {
@@ -265,7 +264,7 @@ RenderSubject hills_subject(std::uint32_t quads, glm::uvec2 eye_px) {
   return std::move(*subject);
 }
 
-RenderSubject boxes_subject(std::uint32_t count, glm::uvec2 eye_px) { return boxes(count, eye_px, kFrames); }
+RenderSubject boxes_subject(std::uint32_t count, glm::uvec2 eye_px) { return boxes(count, eye_px, kSubjectFrames); }
 
 RenderSubject growing_subject(std::uint32_t count, glm::uvec2 eye_px) {
   RenderSubject subject = boxes(count, eye_px, kGrowthFrames);

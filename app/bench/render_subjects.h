@@ -28,6 +28,8 @@ struct RenderSubject {
   std::vector<render::FrameState> frames{};
 };
 
+constexpr int kSubjectFrames = 24;
+
 // Motion on the demo's wall while gold is felt. Tip: the tip goes down and up, the lever bends, the curve grows and
 // every frame repaints the panels. TipAndHead: the head moves too. None: the tip rests on the sample.
 enum class WallMotion { Tip, TipAndHead, None };
@@ -37,7 +39,7 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
 
 // A glTF file in front of a swaying viewer: its box fills 30 degrees of height, the wall cuts the box in the middle,
 // and the distance between the eyes is 3 % of the distance to it.
-core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye_px);
+core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye_px, int frames = kSubjectFrames);
 
 // A square of `quads` x `quads` hills of one material, and `count` small boxes in a cube, each a separate node. Viewed
 // like a glTF file.

@@ -105,6 +105,31 @@ TEST_P(LettersOfThePanels, OfKeysAndOfALessonsWordsAreThoseOfTheGuidance) {
   EXPECT_GE(share(lesson_panel(cycle, phrases), places.parameters()), kShareOfGuidance);
 }
 
+// Fourteen rows that must shrink: one with a source below it takes more height, not smaller letters.
+TEST(LettersOfATable, HaveOneSizeWithAndWithoutASourceBelowThem) {
+  test::Painter painter(640.0, 1e-3);
+  const render::PanelPlacement place{.lower_left_m = {}, .right_m = {0.9, 0, 0}, .up_m = {0, 0.92, 0}};
+  render::DataPanel table;
+  for (int i = 0; i < 14; ++i) {
+    table.rows.push_back({.name = "", .value = "8", .source = i % 3 == 0 ? "" : " "});
+  }
+  const auto painted = painter.paint(table, place);
+  EXPECT_TRUE(painted.inside());
+  EXPECT_GT(painted.least_em_m, 0.02F);
+  EXPECT_NEAR(painted.largest_em_m, painted.least_em_m, 1e-4F);
+}
+
+TEST(LettersOfALabel, KeepTheirDistanceFromItsEdges) {
+  constexpr float kLeastMm = 20.0F;
+  test::Painter painter(1000.0, 1e-3);
+  const render::PanelPlacement place{.lower_left_m = {}, .right_m = {0.8, 0, 0}, .up_m = {0, 0.1, 0}};
+  const auto painted = painter.paint(
+      render::Label{.text = "The tip presses on the surface", .highlighted = false, .placement = place}, place);
+  const float mm_of_px = 800.0F / painted.size.x;
+  EXPECT_GT(mm_of_px * painted.left_px, kLeastMm);
+  EXPECT_GT(mm_of_px * (painted.size.x - painted.right_px), kLeastMm);
+}
+
 INSTANTIATE_TEST_SUITE_P(Languages, LettersOfThePanels, ::testing::Values("en", "de"));
 
 }  // namespace letters_test

@@ -29,6 +29,8 @@ struct Painted {
   float state_height_px = 0.0F;  // height of the plate around the state's word
   float letter_px = 0.0F;        // height of its letters, on average
   float least_em_m = 1.0F;       // smallest letter's em square, on the wall
+  float largest_em_m = 0.0F;
+  float left_px = 1e9F, right_px = -1e9F;  // ends of the letters
 
   bool inside(float slack = 1.0F) const {
     return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;
@@ -76,7 +78,7 @@ class Painter {
     }
     painted.state_height_px = 0.5F * (bottom - top);
     painted.letter_px = 0.5F * mean_letter(list);
-    painted.least_em_m = least_em_texels(list) / fonts_.texels_per_mm * static_cast<float>(millimetre_m_);
+    measure_letters(list, painted);
     ImGui::Render();
     return painted;
   }
@@ -97,14 +99,18 @@ class Painter {
   }
 
   // What letter a rectangle shows is known by its place in the atlas.
-  float least_em_texels(const ImDrawList& list) const {
-    float least = 1e9F;
+  void measure_letters(const ImDrawList& list, Painted& painted) const {
+    const float texel_m = static_cast<float>(millimetre_m_) / fonts_.texels_per_mm;
     for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
       const ImDrawVert &from = list.VtxBuffer[i], &to = list.VtxBuffer[i + 2];
       const auto em = em_of_height_.find({from.uv.x, from.uv.y, to.uv.x, to.uv.y});
-      if (em != em_of_height_.end()) least = std::min(least, em->second * (to.pos.y - from.pos.y));
+      if (em == em_of_height_.end()) continue;
+      const float em_m = em->second * (to.pos.y - from.pos.y) * texel_m;
+      painted.least_em_m = std::min(painted.least_em_m, em_m);
+      painted.largest_em_m = std::max(painted.largest_em_m, em_m);
+      painted.left_px = std::min(painted.left_px, from.pos.x);
+      painted.right_px = std::max(painted.right_px, to.pos.x);
     }
-    return least;
   }
 
   bool is_ellipsis(const ImVec2& uv) const {

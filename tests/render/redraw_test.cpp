@@ -221,6 +221,13 @@ TEST_F(Redraw, WithOneSampleGivesTheBytesOfRedrawingEverything) {
   expect_same(of_many_tiles(1, render::PassMode::Multiview), 21);
 }
 
+// The background of one light is cleared, not drawn.
+TEST_F(Redraw, WithOneLightGivesTheBytesOfRedrawingEverything) {
+  render::RendererOptions options = of_many_tiles(4, render::PassMode::Automatic);
+  options.lighting = render::Lighting::KeyAlone;
+  expect_same(options, 31);
+}
+
 // Also of one that was composed before more frames than are remembered.
 TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
   auto changes = make_renderer(test_.scene, of_many_tiles());

@@ -2,6 +2,8 @@
 // Invariant: the shadow map is redrawn only where a caster changed
 // Invariant: no shadow ends where the map does
 // Invariant: a shadow's edge is wider, the farther away its caster is
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
@@ -159,6 +161,8 @@ TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
   one_light.lighting = render::Lighting::KeyAlone;
   const render::Image alone = draw(scene, frame, one_light).left;
   EXPECT_GT(difference(alone, lit, 8).share_beyond, 0.01);  // without the studio
+  constexpr std::array<std::uint8_t, 4> kPlain{64, 69, 79, 255};
+  EXPECT_TRUE(std::equal(kPlain.begin(), kPlain.end(), alone.rgba.begin()));  // behind everything, in the corner
   frame.visible[lid] = 0;
   EXPECT_EQ(draw(scene, frame, one_light).left.rgba, alone.rgba);
 }

@@ -25,7 +25,7 @@ enum class PassMode { Automatic, Multiview, TwoPasses };
 enum class Redraw { Changes, Everything };
 
 // The key light with its shadow and the studio around it; or, for comparison with programs that have no more, the key
-// light and an even light from all sides, without shadows.
+// light and an even light from all sides before a plain background, without shadows.
 enum class Lighting { Studio, KeyAlone };
 
 // Light ink on a dark plate that lets the scene shine through a little; the same on an opaque plate, where light is

@@ -259,9 +259,10 @@ namespace {
 // `wait` takes a timeout.
 template <class Wait>
 void wait_in_turns(const Device& device, Wait&& wait, const std::function<void()>& meanwhile) {
-  for (std::uint64_t turn = 0; turn <= Device::kLongestWorkNs / Device::kTurnNs; ++turn) {
-    if (wait(Device::kTurnNs) == vk::Result::eSuccess) return;
-    meanwhile();
+  const std::uint64_t turn_ns = meanwhile ? Device::kTurnNs : Device::kIdleTurnNs;
+  for (std::uint64_t turn = 0; turn <= Device::kLongestWorkNs / turn_ns; ++turn) {
+    if (wait(turn_ns) == vk::Result::eSuccess) return;
+    if (meanwhile) meanwhile();
   }
   device.give_up();
 }

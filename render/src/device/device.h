@@ -70,11 +70,11 @@ class Device {
   // Waits until the device has finished. Throws vk::SystemError; ends the process if it takes longer than
   // kLongestWorkNs, because a hanging device cannot even be closed.
   static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // GPU drivers give up after about 10 s
-  // Interval between calls of `meanwhile`.
-  static constexpr std::uint64_t kTurnNs = 5'000'000;
-  void wait_for(const vk::raii::Fence& fence, const std::function<void()>& meanwhile = [] {}) const;
-  void wait_for(
-      const vk::raii::Semaphore& timeline, std::uint64_t value, const std::function<void()>& meanwhile = [] {}) const;
+  // Interval between calls of `meanwhile`; without one the caller wakes up less often.
+  static constexpr std::uint64_t kTurnNs = 5'000'000, kIdleTurnNs = 100'000'000;
+  void wait_for(const vk::raii::Fence& fence, const std::function<void()>& meanwhile = {}) const;
+  void wait_for(const vk::raii::Semaphore& timeline, std::uint64_t value,
+                const std::function<void()>& meanwhile = {}) const;
   [[noreturn]] void give_up() const;
 
   // Records with `record`, submits and waits; used for uploads at start and for readback.

@@ -36,6 +36,7 @@ void resolve(vk::RenderingAttachmentInfo& attachment, vk::ImageView multisampled
 EyeTargets::EyeTargets(const Device& device, const RendererOptions& options)
     : device_(&device),
       extent_{options.eye_width, options.eye_height},
+      plain_background_(options.lighting == Lighting::KeyAlone),
       color_(create_target("eyes", kEyeFormat, 2)),
       depth_(create_target("eyes depth", kDepthFormat, 2)) {
   const auto largest = device.physical().getProperties().limits.maxViewportDimensions;
@@ -118,12 +119,14 @@ void EyeTargets::begin(const vk::raii::CommandBuffer& command, std::size_t pass,
   const Filled to = filled(pass);
   const auto held = [&](const ImageUse& use) { return box ? use : use.discarded(); };
 
-  // the background covers every pixel left over, so the colour needs no clearing; for a partial redraw, neither does
-  // the depth
+  // a background that is drawn covers every pixel left over, so the colour needs no clearing; for a partial redraw,
+  // neither does the depth
+  const auto uncovered = plain_background_ ? vk::AttachmentLoadOp::eClear : vk::AttachmentLoadOp::eDontCare;
   vk::RenderingAttachmentInfo color{.imageView = both ? *to.color.both : *to.color.single[to.layer],
                                     .imageLayout = vk::ImageLayout::eColorAttachmentOptimal,
-                                    .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eDontCare,
-                                    .storeOp = vk::AttachmentStoreOp::eStore};
+                                    .loadOp = box ? vk::AttachmentLoadOp::eLoad : uncovered,
+                                    .storeOp = vk::AttachmentStoreOp::eStore,
+                                    .clearValue = kPlainBackground};
   vk::RenderingAttachmentInfo depth{.imageView = both ? *to.depth.both : *to.depth.single[to.layer],
                                     .imageLayout = vk::ImageLayout::eDepthAttachmentOptimal,
                                     .loadOp = box ? vk::AttachmentLoadOp::eLoad : vk::AttachmentLoadOp::eClear,

@@ -18,6 +18,8 @@ inline constexpr vk::Format kEyeFormat = vk::Format::eB8G8R8A8Unorm;
 inline constexpr vk::Format kEyeLinearFormat = vk::Format::eB8G8R8A8Srgb;  // sampled and filtered as linear light
 inline constexpr vk::Format kDepthFormat = vk::Format::eD32Sfloat;
 inline constexpr std::uint32_t kBothEyes = 0b11;  // view mask of a multiview pass
+// Background of Lighting::KeyAlone.
+inline constexpr vk::ClearColorValue kPlainBackground{std::array{0.25F, 0.27F, 0.31F, 1.0F}};
 
 // Settings for drawing the eyes of one frame.
 struct EyePassConfig {
@@ -133,6 +135,7 @@ class EyeTargets {
   const Device* device_;
   vk::Extent2D extent_;
   float guard_band_ = 1.0F;
+  bool plain_background_;
   Target color_;
   Target depth_;
   Target second_color_;  // resolve target of the second single pass

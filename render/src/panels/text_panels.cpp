@@ -162,6 +162,7 @@ void paint_words(Canvas& canvas, std::string_view words, float top, float pitch)
 constexpr float kLargestRow = 1.4F;  // text scale of a row that has only a name and a value
 constexpr float kLeastName = 0.75F;  // smallest size of its name, as a share of the value's
 constexpr float kNameGap = 20.0F;
+constexpr float kLeastSource = 0.275F;  // smallest size of a source, as a share of its style's
 
 // Source shown below a row.
 std::string_view shown_source(const DataPanel& panel, const DataRow& row) {
@@ -171,22 +172,45 @@ std::string_view shown_source(const DataPanel& panel, const DataRow& row) {
 // Height of a row: name and value, and the source, if any, below them.
 float row_block_mm(std::string_view source) { return source.empty() ? 46.0F : 78.0F; }
 
-float tallest_block_mm(const DataPanel& panel) {
-  float tallest = 0.0F;
-  for (const DataRow& row : panel.rows) tallest = std::max(tallest, row_block_mm(shown_source(panel, row)));
-  return tallest;
+float row_block_mm(const DataPanel& panel, const DataRow& row) {
+  return is_words(row) ? words_line_mm() : row_block_mm(shown_source(panel, row));
+}
+
+// Heights of the rows at text scale 1.
+struct TableBlocks {
+  float tallest_mm = 0.0F;
+  float sum_mm = 0.0F;
+};
+TableBlocks blocks_of(const DataPanel& panel) {
+  TableBlocks blocks;
+  for (const DataRow& row : panel.rows) {
+    const float block = row_block_mm(panel, row);
+    blocks.tallest_mm = std::max(blocks.tallest_mm, block);
+    blocks.sum_mm += block;
+  }
+  return blocks;
+}
+
+// Height of a row in a table of this height: the same for all if the tallest row fits, or else by what the rows
+// contain, so that their letters have one size.
+float row_height_mm(const DataPanel& panel, const DataRow& row, float room) {
+  const TableBlocks blocks = blocks_of(panel);
+  const auto count = static_cast<float>(panel.rows.size());
+  const float pitch = std::min(kMostPitch, room / count);
+  if (pitch >= blocks.tallest_mm) return pitch;
+  const float spare = std::max(0.0F, room - blocks.sum_mm) / count;
+  return std::min(1.0F, room / blocks.sum_mm) * row_block_mm(panel, row) + spare;
 }
 
 // Text scale of a table. The header shrinks as much as the rows, if there are so many that they must shrink.
 float table_scale(const Canvas& canvas, const DataPanel& panel) {
-  const float whole = kHeader + tallest_block_mm(panel) * static_cast<float>(panel.rows.size());
-  return std::min(1.0F, (canvas.size_mm().y - kBelowRows) / whole);
+  return std::min(1.0F, (canvas.size_mm().y - kBelowRows) / (kHeader + blocks_of(panel).sum_mm));
 }
 
 // Largest text scale of rows that have only a name and a value: all values have one size, and a long name may be
 // smaller.
 float largest_row(const Canvas& canvas, const DataPanel& panel) {
-  float largest = panel.details || tallest_block_mm(panel) > row_block_mm("") ? 1.0F : kLargestRow;
+  float largest = panel.details || blocks_of(panel).tallest_mm > words_line_mm() ? 1.0F : kLargestRow;
   for (const DataRow& row : panel.rows) {
     const float name = canvas.text_width_mm(TextStyle::Body, row.name);
     const float value = canvas.text_width_mm(TextStyle::Strong, row.value);
@@ -213,7 +237,8 @@ void paint_row(Canvas& canvas, const DataRow& row, std::string_view source, floa
   canvas.text({kMargin, y + lift(name_scale) + 2.0F}, TextStyle::Body, palette::kMuted, row.name, Align::Left,
               name_scale);
   canvas.text({right, y + lift(value_scale)}, TextStyle::Strong, palette::kInk, row.value, Align::Right, value_scale);
-  shrunk_text(canvas, {kMargin, y + 46.0F * by_height}, {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}}, source,
+  shrunk_text(canvas, {kMargin, y + 46.0F * by_height},
+              {TextStyle::Small, Color{palette::kMuted.srgb, 0.85F}, std::min(0.55F, kLeastSource / by_height)}, source,
               room, by_height);
   canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
 }
@@ -235,13 +260,13 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   }
   const float room = canvas.size_mm().y - top - (text ? text_size : 1.0F) * kBelowRows;
   if (text) return paint_text(canvas, panel, top, room, text_size);
-  const float pitch = std::min(kMostPitch, room / static_cast<float>(panel.rows.size()));
   const float largest = largest_row(canvas, panel);
-  for (std::size_t i = 0; i < panel.rows.size(); ++i) {
-    const DataRow& row = panel.rows[i];
-    const float at = top + pitch * static_cast<float>(i);
-    is_words(row) ? paint_words(canvas, row.name, at, pitch)
-                  : paint_row(canvas, row, shown_source(panel, row), at, pitch, largest);
+  float at = top;
+  for (const DataRow& row : panel.rows) {
+    const float height = row_height_mm(panel, row, room);
+    is_words(row) ? paint_words(canvas, row.name, at, height)
+                  : paint_row(canvas, row, shown_source(panel, row), at, height, largest);
+    at += height;
   }
 }
 
@@ -291,8 +316,10 @@ void paint(Canvas& canvas, const Banner& banner) {
 void paint(Canvas& canvas, const Label& label) {
   canvas.panel_background(label.highlighted ? palette::kOrange : palette::kEdge, label.highlighted ? 5.0F : 2.0F);
   const glm::vec2 size = canvas.size_mm();
+  const float margin = std::clamp(0.03F * size.x, 12.0F, 24.0F);  // beside the text
   const float by_height = 0.66F * size.y / text_height_mm(TextStyle::Guidance);
-  const float by_width = (size.x - 24.0F) / std::max(canvas.text_width_mm(TextStyle::Guidance, label.text), 1.0F);
+  const float by_width =
+      (size.x - 2.0F * margin) / std::max(canvas.text_width_mm(TextStyle::Guidance, label.text), 1.0F);
   const float scale = std::min({by_height, by_width, 1.0F});
   const float height = scale * text_height_mm(TextStyle::Guidance);
   canvas.text({0.5F * size.x, 0.5F * (size.y - height)}, TextStyle::Guidance,

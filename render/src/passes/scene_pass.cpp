@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "device/barriers.h"
 #include "device/pipelines.h"
 #include "shaders/background_frag.h"
 #include "shaders/copies_vert.h"
@@ -255,13 +256,22 @@ void ScenePass::record_background(const vk::raii::CommandBuffer& command, const 
   command.draw(4, 1, 0, 0);
 }
 
+// Draws the background over the old contents of a box, and clears its depth.
+void ScenePass::erase(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const PixelBox& box) {
+  if (!one_light_) return record_background(command, drawing, erasing_background_);
+  const std::array cleared{
+      vk::ClearAttachment{.aspectMask = kColorAspect, .clearValue = kPlainBackground},
+      vk::ClearAttachment{.aspectMask = kDepthAspect, .clearValue = vk::ClearDepthStencilValue{.depth = 0.0F}}};
+  command.clearAttachments(cleared, vk::ClearRect{.rect = box.rect(), .layerCount = 1});
+}
+
 void ScenePass::record_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input) {
   bind_buffers(command, input);
   command.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_, 0, input.frame_set, nullptr);
   const std::size_t fog = input.draws.hazy ? 1 : 0;
-  if (input.box) record_background(command, drawing, erasing_background_);
+  if (input.box) erase(command, drawing, *input.box);
   record_in_eyes(command, drawing, input, input.draws.opaque, opaque_[fog]);
-  if (!input.box) record_background(command, drawing, background_);
+  if (!input.box && !one_light_) record_background(command, drawing, background_);
   record_in_eyes(command, drawing, input, input.draws.blended, blended_[fog]);
   command.setFrontFace(vk::FrontFace::eCounterClockwise);
 }

@@ -65,6 +65,7 @@ class ScenePass {
   const vk::raii::Pipeline& shadow_pipeline(bool copied);
   static void record_background(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                                 EyePipeline& pipeline);
+  void erase(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const PixelBox& box);
   void record_in_eyes(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing, const Input& input,
                       std::span<const std::uint32_t> draws, PlainPipelines& plain);
 
