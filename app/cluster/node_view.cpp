@@ -23,6 +23,7 @@
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "scene/samples/adjusted_set.h"
 #include "scene/samples/particle_set.h"
 
 namespace afm::app {
@@ -51,6 +52,7 @@ NodeView::NodeView(const exhibit::Stage& stage, const std::vector<curves::Sample
       history_(std::make_unique<exhibit::WallHistory>(materials.size())),
       sight_(display.windows().all(), clock) {
   panels_->set_friction(&history_->friction);
+  if (stage.particles) adjusted_ = std::make_unique<scene::AdjustedSet>(*stage.particles);
 }
 
 NodeView::~NodeView() = default;
@@ -212,14 +214,16 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   now.curves = history_->cycles.curves();
   const bool marks = stage_.particles && scene::leaves_marks(*stage_.particles);
   if (marks) history_->tiles.resize(scene::kMarkTiles);
+  if (adjusted_) adjusted_->use(history_->push.settings);
   const exhibit::ParticlesNow particles{
-      .set = stage_.particles.get(),
+      .set = adjusted_ ? &adjusted_->set() : nullptr,
       .pages = history_->pages,
       .push = history_->push,
       .score = history_->score,
       .plan = history_->plan,
       .tiles = marks ? std::span<const scene::MarkTile>(history_->tiles) : std::span<const scene::MarkTile>(),
-      .marks = history_->marks};
+      .marks = history_->marks,
+      .limits = adjusted_ ? &adjusted_->limits() : nullptr};
   if (stage_.particles) now.wall.particles = &particles;
   follow_scan(message.moment);
   if (scan_) exhibit::show_scan(*scan_, now);

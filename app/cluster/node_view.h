@@ -20,6 +20,9 @@ class FrameBuilder;
 struct Stage;
 struct WallHistory;
 }  // namespace afm::exhibit
+namespace afm::scene {
+class AdjustedSet;
+}
 
 namespace afm::app {
 
@@ -76,6 +79,7 @@ class NodeView {
   std::unique_ptr<exhibit::FrameBuilder> frames_;
   std::unique_ptr<ViewPanels> panels_;
   std::unique_ptr<exhibit::WallHistory> history_;
+  std::unique_ptr<scene::AdjustedSet> adjusted_;  // null without particles
   bool knows_history_ = false;
   std::optional<exhibit::LiveScan> scan_;
   std::deque<cluster::NodeLink::Numbered> records_;  // received and not yet applied

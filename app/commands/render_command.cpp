@@ -37,6 +37,7 @@
 #include "exhibit/state/particles_now.h"
 #include "render/context.h"
 #include "render/renderer.h"
+#include "scene/samples/adjusted_set.h"
 #include "scene/samples/particle_set.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
@@ -272,13 +273,15 @@ core::Result<void> run_render(const RenderOptions& options) {
   if (session->particles && !stage->particles->targets.empty()) task.emplace(*stage->particles);
   const auto replayed = particles_at(*session, time_ns, options, task);
   if (!replayed) return tl::unexpected(replayed.error());
+  const auto limits = session->particles ? scene::push_limits(*stage->particles) : std::vector<scene::PushLimits>();
   const exhibit::ParticlesNow particles{.set = stage->particles.get(),
                                         .pages = replayed->pages,
                                         .push = replayed->push,
                                         .score = task ? task->score() : scene::TaskScore{},
                                         .plan = replayed->plan,
                                         .picture = replayed->picture ? &*replayed->picture : nullptr,
-                                        .tiles = replayed->tiles};
+                                        .tiles = replayed->tiles,
+                                        .limits = session->particles ? &limits : nullptr};
   const exhibit::ParticlesNow* shown = session->particles ? &particles : nullptr;
   if (!session->wall.empty()) return draw_frame(*stage, *models, *session, shown, time_ns, options);
   const auto names = stage->materials.names();

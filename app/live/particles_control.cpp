@@ -17,14 +17,17 @@
 #include "core/clock.h"
 #include "core/log.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/panels/push_setting_words.h"
 #include "exhibit/scenery/push_planner.h"
+#include "exhibit/sound/jam_watch.h"
 #include "exhibit/state/moment.h"
 #include "exhibit/words/guidance.h"
 #include "haptics/device.h"
 #include "haptics/felt_particles.h"
 #include "physics/quantity_text.h"
+#include "scene/samples/adjusted_set.h"
 #include "scene/samples/particle_set.h"
-#include "scene/shared/push_tools.h"
+#include "scene/shared/push_values.h"
 #include "servo/live_picture.h"
 #include "servo/servo_client.h"
 
@@ -56,19 +59,21 @@ std::uint32_t piconewtons(double n) { return static_cast<std::uint32_t>(std::max
 
 std::string text_of(physics::Force force) { return physics::format_quantity(force, physics::kForceUnits, 3); }
 
+using scene::PushSetting;
+using scene::PushSettings;
 using scene::PushTool;
 
-// Nothing if the tool can be used with this device.
-std::optional<scene::ToolRefusal> refusal(const scene::SharedParticles& particles, PushTool tool,
+// Nothing if the settings can be used with this device.
+std::optional<scene::PushRefusal> refusal(const scene::SharedParticles& particles, const PushSettings& settings,
                                           const scene::SharedDevice& device) {
-  if (auto refused = scene::tool_refusal(particles, tool)) return refused;
-  const auto scale = haptics::tool_scale(particles, tool, haptics::spec_of(device));
+  if (auto refused = scene::refusal(particles, settings)) return refused;
+  const auto scale = haptics::adjusted_scale(particles, settings, haptics::spec_of(device));
   if (scale) return std::nullopt;
-  return scene::ToolRefusal{scene::ToolRefusal::Why::Lever, scale.error().message};
+  return scene::PushRefusal{scene::PushRefusal::Why::Lever, scale.error().message};
 }
 
-exhibit::Phrase phrase_of(scene::ToolRefusal::Why why) {
-  using Why = scene::ToolRefusal::Why;
+exhibit::Phrase phrase_of(scene::PushRefusal::Why why) {
+  using Why = scene::PushRefusal::Why;
   switch (why) {
     case Why::Marks:
       return exhibit::Phrase::ToolOfMarks;
@@ -76,6 +81,8 @@ exhibit::Phrase phrase_of(scene::ToolRefusal::Why why) {
       return exhibit::Phrase::ToolNeedsAdhesion;
     case Why::Picture:
       return exhibit::Phrase::ToolOfPicture;
+    case Why::NoNumbers:
+      return exhibit::Phrase::SettingNoNumbers;
     case Why::Lever:
       break;
   }
@@ -86,9 +93,12 @@ exhibit::Phrase phrase_of(scene::ToolRefusal::Why why) {
 
 ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& set)
     : parts_(parts),
+      set_(set),
       now_{.set = &set, .look_load_n = kLookLoads.front() * exhibit::gentle_look(set).si},
       planner_(std::make_unique<exhibit::PushPlanner>(set)),
-      shown_(std::make_unique<exhibit::WallState>()) {
+      shown_(std::make_unique<exhibit::WallState>()),
+      adjusted_(std::make_unique<scene::AdjustedSet>(set)),
+      jam_(std::make_unique<exhibit::JamWatch>()) {
   parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
   if (set.targets.empty()) return;
   task_.emplace(set);
@@ -163,33 +173,91 @@ void ParticlesControl::sweep(const ViewFrame& frame) {
                             .load_pn = piconewtons(now_.look_load_n)});
 }
 
-void ParticlesControl::next_tool() {
+void ParticlesControl::choose_next(PushSetting setting) {
   if (!parts_.servo.running()) return;
   const scene::SharedParticles& particles = parts_.servo.link().model().particles;
-  const PushTool own = scene::own_tool(now_.set->setup);
-  const PushTool chosen = parts_.choice.tool() == PushTool::OfSet ? own : parts_.choice.tool();
-  const PushTool next = chosen == PushTool::Grip ? PushTool::Push : PushTool::Grip;
-  const char* const word = scene::text_of(next).word;
-  if (const auto refused = refusal(particles, next, parts_.servo.link().device())) {
-    core::log_line(fmt::format("tool {}: not here; {}", word, refused->text));
-    return parts_.sound.narrator().note(parts_.stage.phrases()[phrase_of(refused->why)]);
+  const PushSettings& chosen = parts_.choice.settings();
+  const scene::PushSettingText& row = scene::text_of(setting);
+  const exhibit::Phrases& phrases = parts_.stage.phrases();
+  const std::uint16_t before = scene::value_of(chosen, setting);
+  std::optional<scene::PushRefusal> refused;
+  for (std::uint16_t i = 1; i < row.values; ++i) {
+    const auto value = static_cast<std::uint16_t>((before + i) % row.values);
+    if (value != 0 && !scene::differs(particles, setting, value)) continue;
+    const PushSettings next = scene::with(chosen, setting, value);
+    const std::string text = fmt::format("{} {}", row.name, exhibit::value_text(setting, value, set_));
+    if (auto why = refusal(particles, next, parts_.servo.link().device())) {
+      core::log_line(fmt::format("{}: not here; {}", text, why->text));
+      refused = std::move(why);
+      continue;
+    }
+    return choose(next, text);
   }
-  if (exhibit::touched(now_, now_.set->particles.size())) {
-    core::log_line(
-        fmt::format("tool {}: not while the tip touches particle {}; go back from it", word, now_.push.particle + 1));
-    parts_.sound.narrator().note(parts_.stage.phrases()[exhibit::Phrase::ToolWaits]);
-  }
-  core::log_line(fmt::format("tool {}: as soon as the tip is off the sample and the particles, without force", word));
-  parts_.choice.choose_tool(next);
+  if (!refused) core::log_line(fmt::format("{}: no other here", row.name));
+  parts_.sound.narrator().note(refused
+                                   ? phrases[phrase_of(refused->why)]
+                                   : phrases.text<exhibit::Phrase::SettingNoOther>(exhibit::name_of(setting, phrases)));
 }
 
-void ParticlesControl::follow_tool() {
-  const PushTool now = now_.push.tool;
-  const PushTool before = std::exchange(tool_, now);
-  if (now == before || now == PushTool::OfSet || before == PushTool::OfSet) return;
-  core::log_line(fmt::format("tool {}: {}", scene::text_of(now).word, scene::text_of(now).meaning));
-  parts_.sound.narrator().note(
-      parts_.stage.phrases()[now == PushTool::Grip ? exhibit::Phrase::ToolNowGrip : exhibit::Phrase::ToolNowPush]);
+void ParticlesControl::choose(const PushSettings& settings, const std::string& text) {
+  if (exhibit::touched(now_, set_.particles.size())) {
+    core::log_line(
+        fmt::format("{}: not while the tip touches particle {}; go back from it", text, now_.push.particle + 1));
+    parts_.sound.narrator().note(parts_.stage.phrases()[exhibit::Phrase::ToolWaits]);
+  }
+  core::log_line(fmt::format("{}: as soon as the tip is off the sample and the particles, without force", text));
+  parts_.choice.choose_settings(settings);
+}
+
+void ParticlesControl::mark_next_setting() {
+  const exhibit::Phrases& phrases = parts_.stage.phrases();
+  marked_ = marked_ ? (*marked_ + 1) % (scene::kPushSettings.size() + 1) : 0;
+  std::string name = phrases[exhibit::Phrase::LookLoad];
+  std::string value = phrases.number(text_of(physics::Force(now_.look_load_n)));
+  std::string line = "load of a look " + text_of(physics::Force(now_.look_load_n));
+  if (*marked_ < scene::kPushSettings.size()) {
+    const scene::PushSettingText& row = scene::kPushSettings.at(*marked_);
+    const std::uint16_t number = scene::value_of(parts_.choice.settings(), row.setting);
+    name = exhibit::name_of(row.setting, phrases);
+    value = exhibit::value_name(row.setting, number, set_, phrases);
+    line = fmt::format("{} {}", row.name, exhibit::value_text(row.setting, number, set_));
+  }
+  core::log_line(fmt::format("setting: {}; Delete chooses the next", line));
+  parts_.sound.narrator().note(phrases.text<exhibit::Phrase::SettingMarked>(name, value));
+}
+
+void ParticlesControl::change_marked_setting() {
+  if (!marked_) mark_next_setting();
+  if (*marked_ == scene::kPushSettings.size()) return next_look_load();
+  choose_next(scene::kPushSettings.at(*marked_).setting);
+}
+
+void ParticlesControl::follow_settings() {
+  adjusted_->use(now_.push.settings);
+  now_.set = &adjusted_->set();
+  now_.limits = &adjusted_->limits();
+  const PushSettings& now = now_.push.settings;
+  const PushSettings before = std::exchange(settings_, now);
+  if (before.tool == PushTool::OfSet || now.tool == PushTool::OfSet) return;
+  const exhibit::Phrases& phrases = parts_.stage.phrases();
+  for (const scene::PushSettingText& row : scene::kPushSettings) {
+    const std::uint16_t value = scene::value_of(now, row.setting);
+    if (value == scene::value_of(before, row.setting)) continue;
+    const bool tool = row.setting == PushSetting::Tool;
+    core::log_line(fmt::format("{} {}: {}", row.name, exhibit::value_text(row.setting, value, set_),
+                               tool ? scene::text_of(now.tool).meaning : "in use"));
+    parts_.sound.narrator().note(
+        tool ? phrases[now.tool == PushTool::Grip ? exhibit::Phrase::ToolNowGrip : exhibit::Phrase::ToolNowPush]
+             : phrases.text<exhibit::Phrase::SettingNow>(exhibit::name_of(row.setting, phrases),
+                                                         exhibit::value_name(row.setting, value, set_, phrases)));
+  }
+}
+
+void ParticlesControl::follow_jam() {
+  const auto held_n = jam_->add(now_.push);
+  if (!held_n) return;
+  core::log_line(fmt::format("jammed: the particles hold against {}", text_of(physics::Force(*held_n))));
+  parts_.sound.narrator().happened(exhibit::HeardEvent::ParticleJammed, parts_.servo.link().tip().material, *held_n);
 }
 
 bool ParticlesControl::point(const input::Ray& ray) {
@@ -214,7 +282,8 @@ void ParticlesControl::send_plan() {
 
 void ParticlesControl::restart(Restart what) {
   if (what == Restart::Visitor) {
-    parts_.choice.choose_tool(PushTool::OfSet);
+    parts_.choice.choose_settings({});
+    marked_.reset();
     look_load_ = 0;
     now_.look_load_n = kLookLoads.front() * exhibit::gentle_look(*now_.set).si;
   }
@@ -229,7 +298,7 @@ void ParticlesControl::restart(Restart what) {
 
 // A new servo has every particle at its start, and no push to take back.
 void ParticlesControl::begin_task() {
-  if (task_) task_.emplace(*now_.set);
+  if (task_) task_.emplace(set_);
   now_.score = {};
 }
 
@@ -247,7 +316,8 @@ void ParticlesControl::update(const ViewFrame& frame) {
   now_.tiles = link.mark_tiles();
   now_.marks = link.marks();
   if (!parts_.servo.running()) return;
-  follow_tool();
+  follow_settings();
+  follow_jam();
   if (task_) follow_task();
   sweep(frame);
   if (order_ != Order::None) carry_out(frame.now_ns);

@@ -5,15 +5,21 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/view/view_control.h"
 #include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
 
 namespace afm::exhibit {
+class JamWatch;
 class PushPlanner;
 struct WallState;
 }  // namespace afm::exhibit
+namespace afm::scene {
+class AdjustedSet;
+enum class PushSetting : std::uint8_t;
+}  // namespace afm::scene
 namespace afm::input {
 struct Ray;
 }
@@ -44,8 +50,12 @@ class ParticlesControl final : public ViewControl {
   // Chooses the next load of a look, gentle or not.
   void next_look_load();
 
-  // Chooses the other tool, push or grip, or says why there is none.
-  void next_tool();
+  // Chooses the next value of a setting among particles, or says why there is none: the other tool, for instance.
+  void choose_next(scene::PushSetting setting);
+
+  // Announces the next setting, or chooses the next value of the one that was announced last.
+  void mark_next_setting();
+  void change_marked_setting();
 
   void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
@@ -56,6 +66,9 @@ class ParticlesControl final : public ViewControl {
 
  private:
   enum class Order { None, TakeBack, PutBack, Look };
+
+  // Settings for the servo; `text` names the changed one in the log.
+  void choose(const scene::PushSettings& settings, const std::string& text);
 
   // The servo carries it out only without force, so the request waits until there is none.
   void give(Order order);
@@ -68,8 +81,11 @@ class ParticlesControl final : public ViewControl {
   // Announces that the pattern is done.
   void follow_task();
 
-  // Announces the tool that the servo uses, once it is another one.
-  void follow_tool();
+  // Shows the set with the settings that the servo uses, and announces them once they are others.
+  void follow_settings();
+
+  // Announces that the particles are jammed.
+  void follow_jam();
 
   // While a look goes on with a load that is not gentle, the servo sweeps the particles.
   void sweep(const ViewFrame& frame);
@@ -78,14 +94,18 @@ class ParticlesControl final : public ViewControl {
   void send_plan();
 
   ViewParts& parts_;
+  const scene::ParticleSet& set_;  // set with its own settings
   exhibit::ParticlesNow now_;
   std::unique_ptr<exhibit::PushPlanner> planner_;
   std::unique_ptr<exhibit::WallState> shown_;  // state of the wall in the newest frame
   Order order_ = Order::None;
-  scene::PushTool tool_ = scene::PushTool::OfSet;  // tool in use, as far as announced
-  std::size_t look_load_ = 0;                      // index into the loads
-  bool sweeps_ = false;                            // true: the servo has been told of a look
-  std::optional<exhibit::ParticleTask> task_;      // only for a set with a pattern
+  std::unique_ptr<scene::AdjustedSet> adjusted_;
+  std::unique_ptr<exhibit::JamWatch> jam_;
+  scene::PushSettings settings_{};             // settings in use, as far as announced
+  std::optional<std::size_t> marked_;          // index into kPushSettings, or its size: the load of a look
+  std::size_t look_load_ = 0;                  // index into the loads
+  bool sweeps_ = false;                        // true: the servo has been told of a look
+  std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
 };
 
 }  // namespace afm::app

@@ -19,6 +19,7 @@
 #include "app/view/view_panels.h"
 #include "app/view/view_parts.h"
 #include "exhibit/words/phrases.h"
+#include "scene/shared/push_values.h"
 
 namespace afm::app {
 
@@ -103,7 +104,14 @@ constexpr std::array kRows{
     LiveKey{Key::End, "End", Phrase::KeyLookLoad,
             [](KeyOwners& owners, std::size_t) { owners.particles->next_look_load(); }}
         .with_particles(),
-    LiveKey{Key::Digit0, "0", Phrase::KeyTool, [](KeyOwners& owners, std::size_t) { owners.particles->next_tool(); }}
+    LiveKey{Key::Digit0, "0", Phrase::KeyTool,
+            [](KeyOwners& owners, std::size_t) { owners.particles->choose_next(scene::PushSetting::Tool); }}
+        .with_particles(),
+    LiveKey{Key::Insert, "Insert", Phrase::KeySettings,
+            [](KeyOwners& owners, std::size_t) { owners.particles->mark_next_setting(); }}
+        .with_particles(),
+    LiveKey{Key::Delete, "Delete", Phrase::KeySettings,
+            [](KeyOwners& owners, std::size_t) { owners.particles->change_marked_setting(); }}
         .with_particles(),
     LiveKey{Key::Left, "Left", Phrase::KeyHeadAcross,
             [](KeyOwners& owners, std::size_t) { owners.place->move_head(-kHeadStepM, 0.0, 0.0); }}

@@ -44,7 +44,7 @@ std::string ViewChoice::spoken(const std::string& line) const {
 
 void ViewChoice::choose(std::size_t material) {
   if (!parts_.servo.running() || material >= felt_.size()) return;
-  parts_.servo.link().choose(static_cast<std::int32_t>(material), scale_, tool_);
+  parts_.servo.link().choose(static_cast<std::int32_t>(material), scale_, settings_);
   if (parts_.hand.source() == HandSource::Simulated) parts_.hand.begin_person(material, parts_.clock.now_ns());
   core::log_line("chosen: " + parts_.stage.materials.materials[material].title);
 }
@@ -84,15 +84,15 @@ void ViewChoice::next_scale() {
   choose_again();
 }
 
-void ViewChoice::choose_tool(scene::PushTool tool) {
-  tool_ = tool;
+void ViewChoice::choose_settings(const scene::PushSettings& settings) {
+  settings_ = settings;
   choose_again();
 }
 
 // The sample may still be on its way.
 void ViewChoice::choose_again() {
   if (!parts_.servo.running() || parts_.servo.link().chosen() < 0) return;
-  parts_.servo.link().choose(parts_.servo.link().chosen(), scale_, tool_);
+  parts_.servo.link().choose(parts_.servo.link().chosen(), scale_, settings_);
 }
 
 void ViewChoice::mark_next_setting() {

@@ -12,11 +12,8 @@
 #include "app/view/view_parts.h"
 #include "curves/sample_model.h"
 #include "input/wand.h"
+#include "scene/shared/particle_blocks.h"
 #include "scene/shared/scale_modes.h"
-
-namespace afm::scene {
-enum class PushTool : std::uint16_t;
-}
 
 namespace afm::app {
 
@@ -57,9 +54,9 @@ class ViewChoice {
 
   void next_scale();
 
-  // Tool among particles for every servo from now on; it takes effect like another sample.
-  void choose_tool(scene::PushTool tool);
-  scene::PushTool tool() const { return tool_; }
+  // Settings among particles for every servo from now on; they take effect like another sample.
+  void choose_settings(const scene::PushSettings& settings);
+  const scene::PushSettings& settings() const { return settings_; }
 
   void mark_next_setting();
   void step_setting(int steps);
@@ -80,7 +77,7 @@ class ViewChoice {
   ViewParts& parts_;
   std::vector<curves::SampleModel> felt_;
   scene::ScaleMode scale_;
-  scene::PushTool tool_{};  // OfSet
+  scene::PushSettings settings_{};
   std::optional<std::size_t> first_material_;
   ViewGuide* guide_ = nullptr;
   PressOnSample press_on_sample_;    // unset: none

@@ -125,10 +125,13 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   // with the other tool: another session, whose spheres stick
   ASSERT_TRUE(press("0", "tool grip: the tip holds what it touched")) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
+  // and by the other law
+  ASSERT_TRUE(press("Insert", "setting: friction law area; Delete chooses the next")) << view.said();
+  ASSERT_TRUE(press("Delete", "friction law amontons: in use")) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
 
-  std::size_t pushed = 0, taken_back = 0, put_back = 0, gripped = 0;
+  std::size_t pushed = 0, taken_back = 0, put_back = 0, gripped = 0, by_amontons = 0;
   std::string events;
   for (const auto& file : std::filesystem::directory_iterator(folder_.file("kept"))) {
     if (file.path().extension() != ".afms") continue;
@@ -140,6 +143,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
     taken_back += count(*session, physics::EventKind::PushTakenBack);
     put_back += count(*session, physics::EventKind::ParticlesPutBack);
     if (scene::has_hold(session->particles->set)) gripped += count(*session, physics::EventKind::ParticleTouched);
+    by_amontons += session->particles->set.species[0].law == physics::ParticleLaw::Amontons ? 1U : 0U;
     const auto replayed = support::run_program(support::touchafm() + " replay " + file.path().string());
     EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
     EXPECT_THAT(replayed.out, HasSubstr("is identical, bit for bit"));
@@ -148,6 +152,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   EXPECT_GE(taken_back, 3U) << "the fourth began a session" << events;
   EXPECT_EQ(put_back, 2U) << events;
   EXPECT_GE(gripped, 1U) << events;
+  EXPECT_GE(by_amontons, 1U) << events;
 }
 
 TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
@@ -219,7 +224,7 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   ASSERT_TRUE(press("End", "load of a look: 339 pN")) << view.said();
   ASSERT_TRUE(press("End", "load of a look: 33.9 pN, gentle; the most is 67.9 pN")) << view.said();
   ASSERT_TRUE(press("BackSpace", "take back: no push at level 2")) << view.said();
-  ASSERT_TRUE(press("0", "tool grip: not here; at level 2 the picture is computed for the tool of the set"))
+  ASSERT_TRUE(press("0", "tool grip: not here; at level 2 the picture is computed for the settings of the set"))
       << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();

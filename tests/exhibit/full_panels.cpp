@@ -14,6 +14,7 @@
 #include "exhibit/panels/swing_panel.h"
 #include "exhibit/scan/scan_subject.h"
 #include "exhibit/words/guidance.h"
+#include "scene/samples/adjusted_set.h"
 #include "scene/shared/shared_blocks.h"
 #include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
@@ -115,10 +116,13 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
     scene::ParticleSet set = test::particle_set(name);
     set.setup.species.front().sticks = true;
     const std::vector<scene::ParticlePage> pages = test::start_pages(set), formed = test::formed_pages(set);
+    const std::vector<scene::PushLimits> limits = scene::push_limits(set);
     for (const physics::PushState state : core::kEnumerators<physics::PushState>) {
       scene::TipPush push = test::push_of(set, set.particles.size() - 1, state);
       push.softened_sideways = 123.4;
       push.strokes = scene::kMostStrokes;
+      scene::TipPush changed = push;
+      changed.settings = {.law = 4, .lever = 4, .tip = 4, .medium = 1};
       for (const physics::ParticleLawText& law : physics::kParticleLaws) {
         set.setup.species.front().law = law.law;
         for (const scene::TaskState task : core::kEnumerators<scene::TaskState>) {
@@ -136,7 +140,9 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
           const servo::PictureNow picture = old_picture(set);
           for (const auto& lie : {pages, formed}) {
             panels.push_back(
-                particles_panel({.set = &set, .pages = lie, .push = push, .score = score, .plan = plan}, phrases));
+                particles_panel({.set = &set, .pages = lie, .push = changed, .score = score, .plan = plan}, phrases));
+            panels.push_back(particles_panel(
+                {.set = &set, .pages = lie, .push = changed, .score = score, .limits = &limits}, phrases));
             if (state != physics::PushState::Several) continue;
             panels.push_back(particles_panel({.set = &set,
                                               .pages = lie,

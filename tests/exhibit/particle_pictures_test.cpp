@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,18 @@ class ParticlePictures : public test::VulkanTest {
     moment.servo_state = scene::ServoState::Running;
     moment.realtime = true;
     return FrameBuilder(stage_->wall_scene, felt_, stage_->eyes).build(moment);
+  }
+
+  // A frame each in which a sphere is measured, computed and stale.
+  template <class Drawn>
+  void draw_each_knowledge(render::Renderer& renderer, const Drawn& drawn) const {
+    const scene::TipPush push = test::push_of(*stage_->particles, 1, physics::PushState::Free);
+    for (const servo::Known known : {servo::Known::Measured, servo::Known::Computed, servo::Known::Stale}) {
+      servo::PictureNow picture{.level = 2, .known = std::vector(stage_->particles->particles.size(), servo::Known{})};
+      picture.known[2] = known;
+      renderer.render(frame(push, &picture));
+      drawn();
+    }
   }
 
   std::optional<Stage> stage_;
@@ -113,22 +126,39 @@ render::Image grey(render::Image image) {
   return image;
 }
 
-// Of one sphere, in grey, from a small window to the widest that the processor draws.
+// Pictures of one sphere, in grey, that is measured, computed and stale.
+void expect_apart(const std::vector<render::Image>& shown, const std::string& text) {
+  ASSERT_EQ(shown.size(), 3U) << text;
+  for (const auto& [a, b] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 2U}}) {
+    const double pixels = static_cast<double>(shown[a].rgba.size()) / 4.0;
+    EXPECT_GE(test::difference(shown[a], shown[b], 24).share_beyond * pixels, 4.0) << text << ": " << a << b;
+  }
+}
+
+// From a small window to the widest that the processor draws.
 TEST_F(ParticlePictures, TellMeasuredComputedAndStaleApartWithoutColour) {
-  const scene::TipPush push = test::push_of(*stage_->particles, 1, physics::PushState::Free);
   for (const std::uint32_t width_px : {400U, 1280U, 3840U}) {
     auto renderer = make_renderer(stage_->wall_scene.scene(), stage_->renderer_options(width_px));
     std::vector<render::Image> shown;
-    for (const servo::Known known : {servo::Known::Measured, servo::Known::Computed, servo::Known::Stale}) {
-      servo::PictureNow picture{.level = 2, .known = std::vector(stage_->particles->particles.size(), servo::Known{})};
-      picture.known[2] = known;
-      renderer.render(frame(push, &picture));
-      shown.push_back(grey(renderer.read_eye(scene::Eye::Left)));
-    }
-    for (const auto& [a, b] : {std::pair{0U, 1U}, {0U, 2U}, {1U, 2U}}) {
-      const double pixels = static_cast<double>(shown[a].rgba.size()) / 4.0;
-      EXPECT_GE(test::difference(shown[a], shown[b], 24).share_beyond * pixels, 4.0) << width_px << ": " << a << b;
-    }
+    draw_each_knowledge(renderer, [&] { shown.push_back(grey(renderer.read_eye(scene::Eye::Left))); });
+    expect_apart(shown, std::to_string(width_px));
+  }
+}
+
+// Of a small window, and next to each other 7680 pixels wide.
+TEST_F(ParticlePictures, TellThemApartInEveryStereoMode) {
+  for (const std::uint32_t width_px : {400U, 3840U}) {
+    auto renderer = make_renderer(stage_->wall_scene.scene(), stage_->renderer_options(width_px));
+    std::map<scene::StereoMode, std::vector<render::Image>> shown;
+    draw_each_knowledge(renderer, [&] {
+      for (const scene::StereoModeTraits& row : scene::kStereoModes) {
+        const bool fits = width_px == 400U || row.mode == scene::StereoMode::SideBySide;
+        if (!fits || scene::has_two_pictures(row.mode) || scene::frame_packing(row.mode)) continue;
+        shown[row.mode].push_back(grey(renderer.read_composed({.mode = row.mode})));
+      }
+    });
+    EXPECT_GE(shown.size(), width_px == 400U ? 12U : 1U);
+    for (const auto& [mode, images] : shown) expect_apart(images, std::string(scene::name_of(mode)));
   }
 }
 

@@ -81,10 +81,10 @@ TEST_F(ParticlesPanel, NamesTheToolInUse) {
   scene::TipPush push = test::push_of(set_, 0, PushState::Slides);
   const render::DataRow pushes{"Tool", "push", "the tip lets go of spheres"};
   EXPECT_EQ(row(panel(push), Phrase::ToolName), pushes);
-  push.tool = scene::PushTool::Push;
+  push.settings.tool = scene::PushTool::Push;
   EXPECT_EQ(row(panel(push), Phrase::ToolName), pushes);
   EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt), render::DataRow{});
-  push.tool = scene::PushTool::Grip;
+  push.settings.tool = scene::PushTool::Grip;
   EXPECT_EQ(row(panel(push), Phrase::ToolName), render::DataRow{});
   EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt).name, "Grip, tears away at");
   EXPECT_EQ(row(panel(push), Phrase::ParticleTearsAt).value, "1.49 nN");
@@ -92,7 +92,7 @@ TEST_F(ParticlesPanel, NamesTheToolInUse) {
   pages_ = test::start_pages(set_);
   push = test::push_of(set_, 0, PushState::Holds);
   EXPECT_FALSE(row(panel(push), Phrase::ParticleTearsAt).value.empty()) << "the tool of the set";
-  push.tool = scene::PushTool::Push;
+  push.settings.tool = scene::PushTool::Push;
   EXPECT_EQ(row(panel(push), Phrase::ToolName).value, "push");
 }
 

@@ -61,7 +61,7 @@ class PushingBench : public ServoBench {
                                     .revision = ++selection,
                                     .scale_mode = scene::ScaleMode::Particles,
                                     .release = 1,
-                                    .tool = tool});
+                                    .settings = settings});
     run(0.3);
   }
 

@@ -144,7 +144,7 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItPushesAParticle) {
   for (int tick = 0; tick < 2900; ++tick) {
     if (tick == 2200) send(0.010, 0.060, 0.3);
     if (tick == 2600) {  // the other tool
-      bench.tool = afm::scene::PushTool::Grip;
+      bench.settings = {.tool = afm::scene::PushTool::Grip};
       bench.choose(afm::test::kMica, afm::scene::ScaleMode::Particles);
     }
     // a groove begins, takes another line, and ends
@@ -166,7 +166,7 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItPushesAParticle) {
   EXPECT_EQ(bench.state().fault, afm::scene::FaultCode::None);
   EXPECT_GT(held, 10);
   EXPECT_GT(slid, 100);
-  EXPECT_EQ(bench.renderer.tip_push()->tool, afm::scene::PushTool::Grip);
+  EXPECT_EQ(bench.renderer.tip_push()->settings.tool, afm::scene::PushTool::Grip);
 }
 
 TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItScratchesASoftSample) {

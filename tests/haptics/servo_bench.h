@@ -76,7 +76,9 @@ class ServoBench {
   }
 
   void choose(std::int32_t material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
-    renderer.store(scene::Selection{.material = material, .revision = ++selection, .scale_mode = mode, .tool = tool});
+    renderer.store(
+        scene::Selection{.material = material, .revision = ++selection, .scale_mode = mode, .settings = settings});
+    loop->edits().build();
   }
 
   // Sends other parameters for a material, and another curve if it has one, and lets the builder work.
@@ -134,8 +136,8 @@ class ServoBench {
   std::int64_t now_ns = 1'000'000'000;
   bool heartbeats = true;
   bool unseen = false;
-  scene::PushTool tool = scene::PushTool::OfSet;  // sent with every choice
-  std::uint32_t taken_back = 0;                   // orders to take a push back, and to put all particles back
+  scene::PushSettings settings{};  // sent with every choice
+  std::uint32_t taken_back = 0;    // orders to take a push back, and to put all particles back
   std::uint32_t put_back = 0;
   std::uint64_t frame = 0;
   std::uint32_t selection = 0;

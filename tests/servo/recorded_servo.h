@@ -17,7 +17,7 @@
 
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
-#include "scene/shared/push_tools.h"
+#include "scene/shared/push_values.h"
 #include "scene/shared/shared_segment.h"
 #include "servo/live_picture.h"
 #include "servo/replay.h"
@@ -69,9 +69,10 @@ class Recording {
         tiles_(scene::has_marks(model.particles) ? scene::kMarkTiles : 0),
         loop_(std::move(*haptics::ServoLoop::create(segment_, device, {.rate_hz = 1000.0}))) {}
 
-  void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit,
-              scene::PushTool tool = scene::PushTool::OfSet) {
-    renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode, .tool = tool});
+  void choose(int material, scene::ScaleMode mode = scene::ScaleMode::Fit, const scene::PushSettings& settings = {}) {
+    renderer_.store(
+        scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode, .settings = settings});
+    loop_->edits().build();
   }
 
   // The scripted hand goes to a place on the sample, at a height above the contact point.
@@ -185,7 +186,7 @@ class Recording {
 
   void record(const scene::TipSample& sample) {
     const auto begins = [&](const scene::TipSample& before) {
-      return before.material != sample.material || before.tool != sample.tool;
+      return before.material != sample.material || before.settings != sample.settings;
     };
     if (sessions.empty() || begins(sessions.back().samples.back())) {
       RecordedSession& session = sessions.emplace_back();
@@ -199,7 +200,7 @@ class Recording {
       }
       if (!pages_.empty() || !tiles_.empty()) {
         session.particles = {.set = segment_.model().particles, .pages = pages_, .tiles = tiles_};
-        scene::hold(sample.tool, session.particles->set);
+        scene::adjust(sample.settings, session.particles->set);
       }
       if (picture) {
         session.particles->set.level.since_ns = sample.level.since_ns;

@@ -108,7 +108,7 @@ TEST(ReplayOfParticles, GivesEveryBitAgainWithBothTools) {
   Recording recording(test::model_with_particles());
   recording.choose(test::kMica, ScaleMode::Particles);
   push_through(recording);
-  recording.choose(test::kMica, ScaleMode::Particles, scene::PushTool::Grip);
+  recording.choose(test::kMica, ScaleMode::Particles, {.tool = scene::PushTool::Grip});
   push_through(recording, 0.001);
   recording.go({-0.045, 0.001}, 0.001, 1.0);
   recording.run(1200);

@@ -16,14 +16,16 @@
 
 #include "core/enumerators.h"
 #include "curves/plot_units.h"
+#include "exhibit/panels/push_setting_words.h"
 #include "exhibit/state/plan_figures.h"
 #include "panels/panel_conventions.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
+#include "scene/samples/adjusted_set.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
-#include "scene/shared/push_tools.h"
+#include "scene/shared/push_values.h"
 #include "servo/live_picture.h"
 
 namespace afm::exhibit {
@@ -83,6 +85,7 @@ class ParticleRows {
     add_plan();
     add_push();
     add_thresholds();
+    add_limits();
     add_numbers();
     return std::move(rows_);
   }
@@ -90,7 +93,7 @@ class ParticleRows {
  private:
   std::size_t species_index() const { return now_.set->particles[touched_.value_or(0)].species; }
   const ParticleSpecies& species() const { return now_.set->setup.species[species_index()]; }
-  bool sticks() const { return scene::sticks_with(now_.push.tool, now_.set->setup, species_index()); }
+  bool sticks() const { return scene::sticks_with(now_.push.settings.tool, now_.set->setup, species_index()); }
 
   void add(Phrase name, std::string value, std::string source) {
     rows_.push_back({phrases_[name], std::move(value), std::move(source)});
@@ -181,6 +184,7 @@ class ParticleRows {
                                                          phrases_.word(now_.set->species[species_index()].name))
                  : phrases_[Phrase::PushedNone]);
     add_tool();
+    add_changed();
     add(Phrase::PushNormal, force_text(Force(touched_ ? push.normal_n : 0.0), phrases_),
         phrases_[Phrase::PushNormalOn]);
     const double lateral_n = touched_ ? std::hypot(push.lateral_n[0], push.lateral_n[1]) : 0.0;
@@ -191,6 +195,13 @@ class ParticleRows {
   void add_tool() {
     if (sticks() || physics::turns_flat(species()) || !(species().tip_adhesion.si > 0.0)) return;
     add(Phrase::ToolName, phrases_[Phrase::ToolPush], phrases_[Phrase::ToolPushOf]);
+  }
+
+  // Settings that a person has changed.
+  void add_changed() {
+    const std::vector<std::string> changed = changed_settings(now_.push.settings, *now_.set, phrases_);
+    if (changed.empty()) return;
+    add(Phrase::SettingsChanged, fmt::format("{}", changed.size()), fmt::format("{}", fmt::join(changed, ", ")));
   }
 
   // A tip that pulls by adhesion holds a particle back or drags it.
@@ -214,6 +225,21 @@ class ParticleRows {
     if (!(other_threshold.si > 0.0)) return;  // the file lacks its parameters
     add(Phrase::PushOtherLaw, "(" + force_text(other_threshold, phrases_) + ")",
         phrases_.text<Phrase::PushLawUnused>(formula_of(other, phrases_)));
+  }
+
+  // Up to which load a scan is gentle, and how stiff a lever has to be; those of a plan replace them.
+  void add_limits() {
+    if (now_.limits == nullptr || plan_figures(now_)) return;
+    const scene::PushLimits& limits = now_.limits->at(species_index());
+    if (limits.gentle.si > 0.0) {
+      add(Phrase::GentleLoad, force_text(limits.gentle, phrases_), phrases_[Phrase::GentleLoadWhy]);
+    }
+    if (!(limits.softest.si > 0.0) || !std::isfinite(limits.softest.si)) return;
+    const physics::Stiffness lever = now_.set->setup.springs.normal;
+    const std::string spring = format_quantity(lever, physics::kStiffnessUnits, kDigits);
+    add(Phrase::LeverAtLeast, quantity_text(limits.softest, physics::kStiffnessUnits, phrases_),
+        lever < limits.softest ? phrases_.text<Phrase::LeverTooSoft>(spring)
+                               : phrases_.text<Phrase::LeverEnough>(spring));
   }
 
   template <class Quantity, class Units>

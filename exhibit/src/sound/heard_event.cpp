@@ -19,7 +19,7 @@ using enum HeardEvent;
 // three notes up for a pattern. On a soft sample a scrape for the first mark, two dull knocks where the tip stops, a
 // rough rise for a hand that is too fast. With ink a drop, and a short rise where the liquid tears. A rough note that
 // falls for a particle that a scan pushes away. A short step up, in the ear of its side, for one
-// that goes astray.
+// that goes astray; a long low note for those that are jammed.
 constexpr std::array kRows{
     HeardEventRow{
         SnapIn, Phrase::HeardSnapIn, Phrase::SaySnapIn, Spoken::AtOnce, {{SignalNote{0, 0.100, 1319, 523, 0.30, 0.3}}}},
@@ -170,6 +170,11 @@ constexpr std::array kRows{
                   Phrase::SayAstrayRight,
                   Spoken::OnRequest,
                   {{SignalNote{0, 0.050, 587, 698, 0.16, 0.2}}}},
+    HeardEventRow{ParticleJammed,
+                  Phrase::HeardParticleJammed,
+                  Phrase::SayParticleJammed,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.260, 147, 139, 0.30, 0.7}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

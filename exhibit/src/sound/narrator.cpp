@@ -47,8 +47,8 @@ void Narrator::heard(const scene::TipSample& sample) {
 
 void Narrator::heard(const scene::TipEvent& event) { tell(heard_of(event)); }
 
-void Narrator::happened(HeardEvent event, std::int32_t material) {
-  const Heard heard{.event = event, .time_ns = clock_.now_ns(), .material = material};
+void Narrator::happened(HeardEvent event, std::int32_t material, double force_n) {
+  const Heard heard{.event = event, .time_ns = clock_.now_ns(), .force_n = force_n, .material = material};
   if (is_told(event, telling_)) signal_(heard);
   tell(heard);
 }

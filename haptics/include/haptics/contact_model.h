@@ -141,7 +141,7 @@ class ContactModel {
 
   // Call only without force: the hand would feel the step. Fit before the first call. `particles` are those on the
   // sample, null for none, or else they are `marks`; they must outlive the use. Particles needs the scale that create()
-  // was given, or that of the same particles with another tool.
+  // was given, or that of the same particles with other settings.
   void use(scene::ScaleMode mode, FeltParticles* particles = nullptr, FeltMarks* marks = nullptr) noexcept;
   const Scaling& scaling() const noexcept { return scalings_[static_cast<std::size_t>(mode_)]; }
   const SampleSurface& surface() const noexcept { return surface_; }

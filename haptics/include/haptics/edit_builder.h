@@ -13,16 +13,18 @@
 
 namespace afm::haptics {
 
-// Builds contact models for the edits that arrive while the servo runs, and offers them to it. One thread, but not the
-// servo's: building allocates and takes milliseconds.
+class ParticleSwap;
+
+// Builds contact models for the edits that arrive while the servo runs, and particles with the settings of a selection,
+// and offers them to it. One thread, but not the servo's: building allocates and takes milliseconds.
 class EditBuilder {
  public:
   // Curves, surfaces, topography and map are those of the segment, the map null if there is none; `common` is that of
-  // the existing contact models; `exchange` must outlive this object.
+  // the existing contact models; `exchange` and `particles` must outlive this object.
   EditBuilder(scene::EditSide edits, std::vector<scene::SharedMeasuredCurve> curves,
               std::vector<scene::SharedHeightField> surfaces, scene::Topography topography,
               std::unique_ptr<const scene::SharedLawMap> law_map, const CommonScale& common, const DeviceSpec& device,
-              std::int64_t period_ns, ModelSwap& exchange)
+              std::int64_t period_ns, ModelSwap& exchange, ParticleSwap& particles)
       : edits_(edits),
         curves_(std::move(curves)),
         surfaces_(std::move(surfaces)),
@@ -31,9 +33,11 @@ class EditBuilder {
         common_(common),
         device_(device),
         period_ns_(period_ns),
-        exchange_(exchange) {}
+        exchange_(exchange),
+        particles_(particles) {}
 
-  // Builds new models and frees those that the servo has retired. An edit that cannot be felt is logged and refused.
+  // Builds new models and particles, and frees those that the servo has retired. What cannot be felt is logged and
+  // refused.
   void build();
 
   // Revision of the newest edit that cannot be felt, 0 for none. Any thread, wait-free.
@@ -51,6 +55,8 @@ class EditBuilder {
   DeviceSpec device_;
   std::int64_t period_ns_;
   ModelSwap& exchange_;
+  ParticleSwap& particles_;
+  scene::PushSettings settings_{};  // settings of the newest selection
   std::atomic<std::uint32_t> refused_{0};
 };
 

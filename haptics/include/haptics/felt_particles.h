@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -60,7 +61,7 @@ class FeltParticles {
   // those of so many particles, and finite.
   void resume(std::span<const scene::ParticlePage> pages);
 
-  // Continues for an object of the same particles with another tool, whose strokes can still be taken back; both wait
+  // Continues for an object of the same particles with other settings, whose strokes can still be taken back; both wait
   // for a lift. Call only without force.
   void take_over(FeltParticles& before) noexcept;
 
@@ -156,44 +157,67 @@ class FeltParticles {
   double sample_j_ = 0;  // energy of the lever on the bare sample, and of particles that press each other
   double stored_j_ = 0;
   std::uint64_t accounts_ = 0;
-  std::uint64_t yields_before_ = 0;  // counts of the tools used before, modulo 2^64
+  std::uint64_t yields_before_ = 0;  // counts with the settings used before, modulo 2^64
   std::uint64_t exhausted_before_ = 0;
   std::unique_ptr<SweepingScan> sweeping_;  // null at level 0
   bool sweep_ended_ = false;                // true: the scan in effect sweeps no more
 };
 
-// Scale of particles, valid ones, with a tool that they allow (scene::tool_refusal). Fails where particle_scale() does,
+// Scale of particles, valid ones, with settings that they allow (scene::refusal). Fails where particle_scale() does,
 // and where the tip would be free only above the device.
-core::Result<ParticleScale> tool_scale(const scene::SharedParticles& particles, scene::PushTool tool,
-                                       const DeviceSpec& device);
+core::Result<ParticleScale> adjusted_scale(const scene::SharedParticles& particles, const scene::PushSettings& settings,
+                                           const DeviceSpec& device);
 
-// The particles on the sample with the tool in use, and the same with the other tool, built in advance if set, lever
-// and device allow it. Empty without particles.
+// The particles on the sample, replaceable by the same with other settings while the servo runs. Used by two threads,
+// as ModelSwap: the servo's, which neither waits, allocates nor frees, and the builder's.
 //
-// create() allocates; everything else may be called in a tick of the servo, by its thread.
-class FeltTools {
+//   builder: build() --offered--> servo: changes(), change() --retired--> freed by the builder's next build()
+class ParticleSwap {
  public:
   // Continues where a predecessor in this segment left the particles, which are valid; `scale` is their
-  // particle_scale().
-  static std::unique_ptr<FeltTools> create(scene::SharedSegment& segment, const scene::SharedParticles& particles,
-                                           const ParticleScale& scale, const DeviceSpec& device);
+  // particle_scale(). Without particles, empty: used() is null, and nothing is ever built.
+  static std::unique_ptr<ParticleSwap> create(scene::SharedSegment& segment, const scene::SharedParticles& particles,
+                                              const ParticleScale& scale, const DeviceSpec& device);
 
-  FeltParticles* used() const noexcept { return used_.get(); }  // null: none
+  ParticleSwap();
+  ParticleSwap(const ParticleSwap&) = delete;
+  ParticleSwap& operator=(const ParticleSwap&) = delete;
+  ~ParticleSwap();
 
-  // In use: Push or Grip; OfSet without particles.
-  scene::PushTool tool() const noexcept { return tool_; }
+  // ---- servo's thread ----
 
-  // True if this one can be used, and is not.
-  bool changes(scene::PushTool wanted) const noexcept;
+  FeltParticles* used() const noexcept;  // null: none
 
-  // Uses the other tool: all particles stay where they are, and their strokes can still be taken back. Only without
-  // force, and if changes() says so.
+  // In use; the tool is Push or Grip, or OfSet without particles.
+  const scene::PushSettings& settings() const noexcept { return settings_; }
+
+  // True if these are not in use, and particles with them are ready.
+  bool changes(const scene::PushSettings& wanted) noexcept;
+
+  // Uses them: all particles stay where they are, and their strokes can still be taken back. Only without force, and if
+  // changes() says so.
   void change() noexcept;
 
+  // ---- builder's thread ----
+
+  // Builds particles with these settings unless they are those of the last call, and frees the retired ones. Settings
+  // that set, lever or device do not allow are logged and left.
+  void build(const scene::PushSettings& wanted);
+
  private:
-  std::unique_ptr<FeltParticles> used_, spare_;  // null: none
+  struct Built;
+
+  // With the tool of the set as Push or Grip.
+  scene::PushSettings in_full(const scene::PushSettings& wanted) const noexcept;
+
+  std::unique_ptr<const scene::SharedParticles> particles_;  // as in the set; null: none
+  DeviceSpec device_{};
   scene::PushTool own_ = scene::PushTool::OfSet;
-  scene::PushTool tool_ = scene::PushTool::OfSet;
+  scene::PushSettings settings_{};
+  std::unique_ptr<Built> used_, ready_;  // the servo's; null: none
+  std::atomic<Built*> offered_{nullptr};
+  std::atomic<Built*> retired_{nullptr};
+  scene::PushSettings built_{};  // the builder's: in full
 };
 
 }  // namespace afm::haptics

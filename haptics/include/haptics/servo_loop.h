@@ -27,7 +27,7 @@ namespace afm::haptics {
 
 class FeltMarks;
 class FeltParticles;
-class FeltTools;
+class ParticleSwap;
 struct RealtimeGrant;
 
 enum class ServoExit { RendererLeft, RendererDied, Stopped };
@@ -125,8 +125,8 @@ class ServoLoop {
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  std::unique_ptr<FeltTools> tools_;  // not null, empty without particles
-  std::unique_ptr<FeltMarks> marks_;  // the same for a sample on which the tip leaves marks
+  std::unique_ptr<ParticleSwap> swap_;  // not null, empty without particles
+  std::unique_ptr<FeltMarks> marks_;    // the same for a sample on which the tip leaves marks
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;

@@ -9,6 +9,7 @@
 
 #include "core/log.h"
 #include "haptics/edit_thread.h"
+#include "haptics/felt_particles.h"
 
 namespace afm::haptics {
 
@@ -35,6 +36,8 @@ core::Result<std::unique_ptr<ContactModel>> EditBuilder::model_of(const scene::M
 
 void EditBuilder::build() {
   exchange_.reclaim();
+  if (const auto selection = edits_.new_selection()) settings_ = selection->settings;
+  particles_.build(settings_);
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     const auto edit = edits_.new_edit(static_cast<std::uint32_t>(i));
     if (!edit) continue;

@@ -11,6 +11,7 @@
 #include "physics/manipulation/particle_friction.h"
 #include "physics/manipulation/tip_contact.h"
 #include "physics/manipulation/tip_hold.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::haptics {
 

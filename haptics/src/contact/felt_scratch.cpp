@@ -8,6 +8,7 @@
 
 #include "mark_history.h"
 #include "published_tiles.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::haptics {
 

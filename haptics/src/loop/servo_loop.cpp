@@ -118,7 +118,7 @@ core::Result<std::unique_ptr<ServoLoop>> ServoLoop::create(scene::SharedSegment&
 
 ServoLoop::~ServoLoop() = default;
 
-FeltParticles* ServoLoop::particles() const noexcept { return tools_->used(); }
+FeltParticles* ServoLoop::particles() const noexcept { return swap_->used(); }
 
 ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& model, scene::Topography topography,
                      HapticDevice& device, const ServoSettings& settings,
@@ -129,12 +129,12 @@ ServoLoop::ServoLoop(scene::SharedSegment& segment, const scene::SharedModel& mo
       settings_(settings),
       period_ns_(period_of(settings)),
       sample_node_(model.sample_node),
-      tools_(FeltTools::create(segment, model.particles, common.particles, spec_)),
+      swap_(ParticleSwap::create(segment, model.particles, common.particles, spec_)),
       marks_(felt_marks_of(segment, model.particles, common.particles, period_ns_)),
       exchange_(std::move(models)),
       edits_(segment.edit_side(), {model.curves.begin(), model.curves.begin() + model.curve_count},
              {model.height_fields.begin(), model.height_fields.begin() + model.height_field_count},
-             std::move(topography), map_of(model), common, spec_, period_ns_, exchange_),
+             std::move(topography), map_of(model), common, spec_, period_ns_, exchange_, *swap_),
       governor_(safety_limits(spec_, period_ns_, Scaling::kStrokeM, settings.dead_man)),
       guide_(spec_),
       position_check_(spec_.measures),
@@ -295,16 +295,16 @@ void ServoLoop::read_shared_blocks(std::int64_t now_ns) noexcept {
 
 // Follows the paper's procedure: choose, lift, press Turn-On. A selection, or an edit of the material under the tip,
 // waits until the tip is off the sample and its particles; then the force is removed, and only without force do law,
-// scale and tool change. Edits of other materials are not felt. A release removes the force at once.
+// scale and settings change. Edits of other materials are not felt. A release removes the force at once.
 void ServoLoop::change_model() noexcept {
   for (std::size_t i = 0; i < exchange_.size(); ++i) {
     if (static_cast<std::int32_t>(i) != state_.material && exchange_.has_offer(i)) exchange_.adopt(i);
   }
   const bool valid = chosen_.material >= 0 && static_cast<std::size_t>(chosen_.material) < exchange_.size();
   const bool newer = valid && chosen_.revision != state_.acknowledged.selection;
-  const bool tool = newer && tools_->changes(chosen_.tool);
+  const bool adjusted = valid && swap_->changes(chosen_.settings);
   const bool other =
-      tool || (newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode));
+      adjusted || (newer && (chosen_.material != state_.material || chosen_.scale_mode != state_.active.scale_mode));
   const bool edited = model_ != nullptr && exchange_.has_offer(static_cast<std::size_t>(state_.material));
   changing_ = false;
   if (const bool release = newer && chosen_.release != 0; other || edited || release) {
@@ -314,7 +314,7 @@ void ServoLoop::change_model() noexcept {
     changing_ = !governor_.released();
     if (changing_) return;
     if (edited) exchange_.adopt(static_cast<std::size_t>(state_.material));
-    if (tool) tools_->change();
+    if (adjusted) swap_->change();
     if (other) {
       select_material(static_cast<std::size_t>(chosen_.material), chosen_.scale_mode);
     } else if (edited) {

@@ -119,7 +119,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .plan = particles() != nullptr ? particles()->groove().plan() : scene::PlannedPush{},
                                 .guide_n = guide_n(particles()),
                                 .level = particles() != nullptr ? particles()->level() : scene::LevelSample{},
-                                .tool = tools_->tool()});
+                                .settings = swap_->settings()});
 }
 
 // Marks are put elsewhere without force alone, as particles are.
@@ -149,7 +149,7 @@ void ServoLoop::publish_marks() noexcept {
 // Only pages that changed.
 void ServoLoop::publish_particles() noexcept {
   scene::TipPush push = particles()->push();
-  push.tool = tools_->tool();
+  push.settings = swap_->settings();
   push.time_ns = state_.time_ns;
   push.tick = state_.tick;
   shared_.store(push);

@@ -5,11 +5,12 @@
 
 #include "core/check.h"
 #include "particle_field.h"
+#include "scene/samples/adjusted_set.h"
 #include "scene/samples/ink_run.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/scratch_run.h"
-#include "scene/shared/push_tools.h"
+#include "scene/shared/push_values.h"
 
 // A set for a shared scene, and back.
 namespace afm::scene {
@@ -141,13 +142,9 @@ ParticleSet recorded_set(const SharedParticles& recorded, const std::string& ass
     const auto path = particle_file(name, assets_dir);
     auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());
     if (!set) continue;
-    for (const PushToolText& row : kPushTools) {
-      const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
-      hold(row.tool, *shared);
-      if (*shared != *plain) continue;
-      hold(row.tool, set->setup);
-      return std::move(*set);
-    }
+    const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
+    if (shared->particles != plain->particles) continue;
+    if (const auto settings = settings_between(*shared, *plain)) return adjusted(*set, *settings);
   }
   ParticleSet set;
   set.title = "Recorded particles";

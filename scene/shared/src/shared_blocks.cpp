@@ -15,6 +15,7 @@
 #include "core/enumerators.h"
 #include "physics/tapping/driven_lever.h"
 #include "scene/shared/map_vibration.h"
+#include "scene/shared/push_values.h"
 #include "scene/shared/shared_segment.h"
 
 namespace afm::scene {
@@ -44,6 +45,7 @@ bool is_field_valid(const LawHere& here) {
 bool is_field_valid(const HandScale& scale) {
   return std::isfinite(scale.hand_m_per_m) && std::isfinite(scale.hand_n_per_n);
 }
+bool is_field_valid(const PushSettings& settings) { return is_valid(settings); }
 template <std::integral Integer>
 bool is_field_valid(Integer /*any*/) {
   return true;
@@ -321,7 +323,7 @@ bool is_valid(const SceneTransforms& transforms, const SharedModel& model) {
 bool is_valid(const Selection& selection, const SharedModel& model) {
   const bool has_scale = selection.scale_mode != ScaleMode::Particles || are_there(model.particles);
   return within(selection.material, model) && core::is_enumerator(selection.scale_mode) && has_scale &&
-         core::is_enumerator(selection.tool) && selection.release <= 1;
+         is_valid(selection.settings) && selection.release <= 1;
 }
 
 bool is_valid(const HandScript& script) {

@@ -234,6 +234,11 @@ std::optional<MaterialEdit> EditSide::new_edit(std::uint32_t material) noexcept 
   return layout_->edits[material].try_load_newer(seen_[material]);
 }
 
+std::optional<Selection> EditSide::new_selection() noexcept {
+  auto selection = layout_->selection.try_load_newer(seen_selection_);
+  return selection && is_valid(*selection, layout_->model) ? selection : std::nullopt;
+}
+
 std::optional<HandScript> ServoSide::new_hand_script() noexcept {
   auto script = layout_->hand_script.try_load_newer(seen_script_);
   check(script, refused_);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/shared/particle_blocks.h"
+#include "scene/shared/tip_blocks.h"
 
 namespace afm::servo {
 

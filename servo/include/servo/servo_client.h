@@ -92,11 +92,11 @@ class ServoClient {
 
   std::uint64_t lost_samples() const { return side_.lost_samples() + (listener_ ? listener_->lost_samples() : 0); }
 
-  // Selects the material under the tip, its scale, and the tool among particles; all take effect once the tip is off
-  // the sample, after the force has been removed. Without `mode`, keeps the previous scale, initially Fit, and tool. A
-  // tool that the device or the set does not allow has no effect: push().tool is the one in use.
-  void choose(std::int32_t material) { choose(material, selection_.scale_mode, selection_.tool); }
-  void choose(std::int32_t material, scene::ScaleMode mode, scene::PushTool tool = scene::PushTool::OfSet);
+  // Selects the material under the tip, its scale, and the settings among particles; all take effect once the tip is
+  // off the sample, after the force has been removed. Without `mode`, keeps the previous scale, initially Fit, and
+  // settings. Those that the device or the set does not allow have no effect: push().settings are in use.
+  void choose(std::int32_t material) { choose(material, selection_.scale_mode, selection_.settings); }
+  void choose(std::int32_t material, scene::ScaleMode mode, const scene::PushSettings& settings = {});
 
   // Removes the force at once, also in contact; the hand must lift and press Turn-On again. The choice stays. Without a
   // choice there is no force to remove.

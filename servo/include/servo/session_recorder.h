@@ -21,10 +21,10 @@ class LivePicture;
 // tick. `tip` is the newest state; `dynamic` means that the lever oscillates.
 bool can_begin_with(const scene::TipSample& sample, const scene::TipState& tip, bool dynamic);
 
-// Records the servo's output as sessions; a new one begins whenever a change of material, parameters, scale or tool has
-// taken effect, and when a push is taken back that was made before the session began. A session begins without force
-// and with the tip off the sample, contains every tick from there, and ends at a gap or at kLongestTicks, so that any
-// shorter part of it can be replayed. Its particles are those for the tool in use. One thread.
+// Records the servo's output as sessions; a new one begins whenever a change of material, parameters, scale or settings
+// has taken effect, and when a push is taken back that was made before the session began. A session begins without
+// force and with the tip off the sample, contains every tick from there, and ends at a gap or at kLongestTicks, so that
+// any shorter part of it can be replayed. Its particles are those for the settings in use. One thread.
 class SessionRecorder {
  public:
   static constexpr std::size_t kLongestTicks = 1'800'000;  // 30 minutes at 1 kHz, about 400 MB

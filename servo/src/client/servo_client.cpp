@@ -228,10 +228,10 @@ void ServoClient::go_on() {
   }
 }
 
-void ServoClient::choose(std::int32_t material, scene::ScaleMode mode, scene::PushTool tool) {
+void ServoClient::choose(std::int32_t material, scene::ScaleMode mode, const scene::PushSettings& settings) {
   selection_.material = material;
   selection_.scale_mode = mode;
-  selection_.tool = tool;
+  selection_.settings = settings;
   // a release that the servo has not seen yet must not be overwritten
   if (tip_.acknowledged.selection == selection_.revision) selection_.release = 0;
   ++selection_.revision;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "scene/shared/push_tools.h"
+#include "scene/shared/push_values.h"
 #include "servo/live_picture.h"
 
 namespace afm::servo {
@@ -22,7 +22,7 @@ bool has_poses_of(const TipSample& sample, const ServoClient& servo) {
 
 bool same_contact(const TipSample& a, const TipSample& b) {
   return a.material == b.material && a.edit_revision == b.edit_revision && a.scale_mode == b.scale_mode &&
-         a.tool == b.tool;
+         a.settings == b.settings;
 }
 
 // Carried out because a person ordered it, not caused by the tip.
@@ -133,7 +133,7 @@ void SessionRecorder::begin(const TipSample& sample, const ServoClient& servo, c
                                            .tiles = {tiles.begin(), tiles.end()},
                                            .picture = {}};
     session_.particles->set.level.since_ns = sample.level.since_ns;
-    scene::hold(sample.tool, session_.particles->set);
+    scene::adjust(sample.settings, session_.particles->set);
     if (picture != nullptr) session_.particles->picture = picture->state();
     session_.has_plans = true;
   }

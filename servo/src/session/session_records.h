@@ -26,8 +26,8 @@ inline constexpr std::size_t kSampleBytesWithoutPush = 288;
 inline constexpr std::size_t kSampleBytesWithoutSwing = 336;
 inline constexpr std::size_t kSampleBytesWithoutPlan = 352;
 inline constexpr std::size_t kSampleBytesWithoutLevel = 408;
-inline constexpr std::size_t kMostSampleBytes = 424;  // size without the tool, which is in no file
-static_assert(offsetof(scene::TipSample, tool) == kMostSampleBytes &&
+inline constexpr std::size_t kMostSampleBytes = 424;  // size without the settings, which are in no file
+static_assert(offsetof(scene::TipSample, settings) == kMostSampleBytes &&
               offsetof(scene::TipSample, level) == kSampleBytesWithoutLevel &&
               offsetof(scene::TipSample, plan) == kSampleBytesWithoutPlan &&
               offsetof(scene::TipSample, swing) == kSampleBytesWithoutSwing &&

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "pushing_bench.h"
+#include "scene/shared/push_values.h"
 
 namespace afm {
 namespace servo_tools_test {
@@ -19,10 +20,10 @@ using test::PushingBench;
 TEST(ServoTools, ChangesTheToolWithoutForceAndKeepsPlacesAndStrokes) {
   PushingBench bench;
   const auto choose = [&](scene::PushTool tool) {
-    bench.tool = tool;
+    bench.settings.tool = tool;
     bench.choose(test::kMica, ScaleMode::Particles);
   };
-  const auto tool = [&] { return bench.renderer.tip_push()->tool; };
+  const auto tool = [&] { return bench.renderer.tip_push()->settings.tool; };
   const scene::ParticlePose start = bench.pose(0);
   bench.put_down();
   EXPECT_EQ(tool(), scene::PushTool::Push);
@@ -38,7 +39,7 @@ TEST(ServoTools, ChangesTheToolWithoutForceAndKeepsPlacesAndStrokes) {
   EXPECT_EQ(tool(), scene::PushTool::Grip);
   for (std::size_t i = 1; i < bench.samples.size(); ++i) {
     const scene::TipSample &before = bench.samples[i - 1], &now = bench.samples[i];
-    if (before.tool == now.tool || before.tick == 0) continue;
+    if (before.settings == now.settings || before.tick == 0) continue;
     EXPECT_FALSE(scene::is_armed(now.servo_state));
     EXPECT_EQ(before.hand_force_n, 0.0);
     EXPECT_EQ(now.push.digest, before.push.digest);
@@ -75,21 +76,21 @@ TEST(ServoTools, ChangesNothingWhileAParticlePushesTheHand) {
     ASSERT_NE(bench.state().phase, physics::Phase::Attached);
     const double pushed_n = bench.sideways_n();
     ASSERT_GT(pushed_n, 0.1);
-    if (!material) bench.tool = scene::PushTool::Grip;
+    if (!material) bench.settings.tool = scene::PushTool::Grip;
     bench.choose(material ? test::kGold : test::kMica, ScaleMode::Particles);
     const std::size_t before = bench.samples.size();
     bench.run(0.3);
     EXPECT_NEAR(bench.sideways_n(), pushed_n, 0.05 * pushed_n);
     EXPECT_EQ(bench.state().servo_state, scene::ServoState::Running);
     EXPECT_EQ(bench.state().material, test::kMica);
-    EXPECT_EQ(bench.renderer.tip_push()->tool, scene::PushTool::Push);
+    EXPECT_EQ(bench.renderer.tip_push()->settings.tool, scene::PushTool::Push);
     bench.go(-0.030, 0.0, 0.001, 0.5);
     bench.run(0.3);
     EXPECT_EQ(bench.state().acknowledged.selection, bench.selection) << "back from the particle, not lifted";
     double last_n = pushed_n;
     for (std::size_t i = before; i < bench.samples.size(); ++i) {
       const scene::TipSample& now = bench.samples[i];
-      if (now.tool == scene::PushTool::Grip || now.material == test::kGold) {
+      if (now.settings.tool == scene::PushTool::Grip || now.material == test::kGold) {
         EXPECT_EQ(std::hypot(now.push.lateral_n[0], now.push.lateral_n[1]), 0.0);
         EXPECT_EQ(last_n, 0.0) << "the force of the tick before";
         break;
@@ -112,12 +113,83 @@ TEST(ServoTools, GripsNoIslandAndNothingAtALevel) {
     PushingBench bench(1000.0, model);
     bench.choose(test::kMica, ScaleMode::Particles);
     bench.run(0.1);
-    bench.tool = scene::PushTool::Grip;
+    bench.settings.tool = scene::PushTool::Grip;
     bench.choose(test::kMica, ScaleMode::Particles);
     bench.run(0.1);
-    EXPECT_EQ(bench.renderer.tip_push()->tool, scene::PushTool::Push);
+    EXPECT_EQ(bench.renderer.tip_push()->settings.tool, scene::PushTool::Push);
     EXPECT_EQ(bench.state().acknowledged.selection, bench.selection);
   }
+}
+
+// Law, lever, tip and medium, one after another: each without force, with all places kept, and felt in the next push.
+TEST(ServoTools, ChangesEverySettingWithoutForceAndKeepsThePlaces) {
+  PushingBench bench;
+  const scene::ParticlePose start = bench.pose(0);
+  // the push of a tip that has moved it, and is then lifted
+  const auto push = [&bench] {
+    bench.put_down();
+    bench.go(-0.018, 0.0, 0.001, 1.0);
+    const scene::TipPush newest = *bench.renderer.tip_push();
+    bench.go(-0.018, 0.0, 0.050, 0.5);
+    return newest;
+  };
+  const scene::TipPush as_set = push();
+  ASSERT_GT(as_set.threshold_n, 0.0);
+  EXPECT_EQ(as_set.settings, scene::PushSettings{.tool = scene::PushTool::Push});
+  struct Change {
+    scene::PushSettings settings;
+    double least, most;  // threshold, in that of the set
+  };
+  // at rest and unloaded, gold gives at 14 times the force by Amontons; it moves at half of it; a meniscus makes the
+  // contact larger, water makes it smaller
+  for (const Change& change :
+       {Change{{.law = 2}, 5.0, 20.0}, Change{{.lever = 4}, 0.5, 2.0}, Change{{.tip = 3}, 0.5, 2.0},
+        Change{{.medium = 1}, 1.5, 3.0}, Change{{.lever = 1, .medium = 2}, 0.2, 0.6}}) {
+    bench.release();
+    const scene::ParticlePose there = bench.pose(0);
+    const std::size_t before = bench.samples.size();
+    bench.settings = change.settings;
+    bench.choose(test::kMica, ScaleMode::Particles);
+    bench.run(0.3);
+    for (std::size_t i = before; i < bench.samples.size(); ++i) {
+      if (bench.samples[i].settings == bench.samples[i - 1].settings) continue;
+      EXPECT_EQ(bench.samples[i - 1].hand_force_n, 0.0);
+      EXPECT_EQ(bench.samples[i].push.digest, bench.samples[i - 1].push.digest);
+    }
+    scene::PushSettings used = change.settings;
+    used.tool = scene::PushTool::Push;
+    ASSERT_EQ(bench.renderer.tip_push()->settings, used);
+    EXPECT_EQ(bench.pose(0), there);
+    bench.order(bench.put_back);
+    const double share = push().threshold_n / as_set.threshold_n;
+    EXPECT_GT(share, change.least) << scene::text_of(scene::PushSetting::Medium, used.medium);
+    EXPECT_LT(share, change.most);
+    EXPECT_EQ(bench.state().fault, scene::FaultCode::None);
+  }
+  bench.release();
+  while (bench.renderer.tip_push()->strokes > 0) bench.order(bench.taken_back);
+  EXPECT_EQ(bench.pose(0), start);
+  EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+}
+
+// A servo that takes over uses what is chosen from its first tick; what cannot be felt changes nothing.
+TEST(ServoTools, KeepsTheSettingsOfAPredecessor) {
+  PushingBench bench;
+  bench.settings = {.tip = 3};
+  bench.choose(test::kMica, ScaleMode::Particles);
+  bench.run(0.1);
+  bench.settings = {.law = 4};
+  bench.choose(test::kMica, ScaleMode::Particles);
+  bench.run(0.1);
+  EXPECT_EQ(bench.renderer.tip_push()->settings.tip, 3U) << "there is no measured threshold";
+  bench.settings = {.medium = 2};
+  bench.choose(test::kMica, ScaleMode::Particles);
+  haptics::SimulatedDevice device;
+  auto successor = haptics::ServoLoop::create(bench.segment, device, {});
+  ASSERT_TRUE(successor);
+  (*successor)->tick(bench.now_ns += 1'000'000, 0);
+  (*successor)->tick(bench.now_ns += 1'000'000, 0);
+  EXPECT_EQ(bench.renderer.tip_push()->settings, (scene::PushSettings{.tool = scene::PushTool::Push, .medium = 2}));
 }
 
 }  // namespace servo_tools_test

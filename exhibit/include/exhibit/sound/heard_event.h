@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstddef>
+#include <utility>
 
+#include "core/enumerators.h"
 #include "exhibit/words/phrases.h"
 
 namespace afm::exhibit {
@@ -41,7 +43,20 @@ enum class HeardEvent {
   LiquidTorn,      // it comes off
   ParticleSwept,   // a scan that presses too hard begins to push a particle
   ParticleAstray,  // a pushed particle has come off the way of the tip
+  ParticleJammed,  // the tip presses particles hard that cannot move
 };
+
+}  // namespace afm::exhibit
+
+// HeardEvent has more values than other enumerations.
+template <>
+consteval auto afm::core::named_values<afm::exhibit::HeardEvent>() {
+  return []<std::size_t... index>(std::index_sequence<index...>) {
+    return std::array{has_name<static_cast<exhibit::HeardEvent>(index)>()...};
+  }(std::make_index_sequence<2 * kMostEnumerators>());
+}
+
+namespace afm::exhibit {
 
 // One note of a signal: a sine that glides between two pitches, with a smooth envelope.
 struct SignalNote {

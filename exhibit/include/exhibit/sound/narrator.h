@@ -31,8 +31,8 @@ class Narrator final : public servo::TipAudience {
   void heard(const scene::TipSample& sample) override;
   void heard(const scene::TipEvent& event) override;
 
-  // Any other event of the wall.
-  void happened(HeardEvent event, std::int32_t material);
+  // Any other event of the wall; `force_n` as in Heard.
+  void happened(HeardEvent event, std::int32_t material, double force_n = 0.0);
 
   // Call once a frame, with the tip's state, the next step, and its line of guidance, which is spoken when it changes.
   struct Step {

@@ -22,6 +22,7 @@ struct PictureNow;
 namespace afm::scene {
 struct ParticleSet;
 struct PatternState;
+struct PushLimits;
 }  // namespace afm::scene
 
 namespace afm::exhibit {
@@ -29,15 +30,16 @@ namespace afm::exhibit {
 // Particles on the stage, or the marks of a soft sample, as the servo has moved them, or with a picture as that shows
 // them. All that is referred to must outlive the object.
 struct ParticlesNow {
-  const scene::ParticleSet* set = nullptr;       // not null
+  const scene::ParticleSet* set = nullptr;       // not null; with the settings of `push`, or its own
   std::span<const scene::ParticlePage> pages{};  // poses; a particle beyond them is where it started
   scene::TipPush push{};
   scene::TaskScore score{};  // only for a set with a pattern
   scene::PlannedPush plan{};
-  const servo::PictureNow* picture = nullptr;  // at level 1 and 2
-  double look_load_n = 0;                      // with which the next look scans
-  std::span<const scene::MarkTile> tiles{};    // marks of a soft sample
-  std::uint64_t marks = 0;                     // other tiles have another number
+  const servo::PictureNow* picture = nullptr;              // at level 1 and 2
+  double look_load_n = 0;                                  // with which the next look scans
+  std::span<const scene::MarkTile> tiles{};                // marks of a soft sample
+  std::uint64_t marks = 0;                                 // other tiles have another number
+  const std::vector<scene::PushLimits>* limits = nullptr;  // limits of each species; null: not known
 };
 
 // Pose of a particle; nothing beyond the pages.

@@ -73,6 +73,7 @@
   PHRASE(KeyTool, "key-tool", "", kLine)                                   \
   PHRASE(ToolName, "tool", "", kLine)                                      \
   PHRASE(ToolPush, "tool-push", "", kLine)                                 \
+  PHRASE(ToolGrip, "tool-grip", "", kLine)                                 \
   PHRASE(ToolPushOf, "tool-push-of", "", kLine)                            \
   PHRASE(ToolNowPush, "tool-now-push", "", kLine)                          \
   PHRASE(ToolNowGrip, "tool-now-grip", "", kLine)                          \
@@ -80,7 +81,22 @@
   PHRASE(ToolNeedsAdhesion, "tool-needs-adhesion", "", kLine)              \
   PHRASE(ToolOfPicture, "tool-of-picture", "", kLine)                      \
   PHRASE(ToolTooMuch, "tool-too-much", "", kLine)                          \
-  PHRASE(ToolWaits, "tool-waits", "", kLine)
+  PHRASE(ToolWaits, "tool-waits", "", kLine)                               \
+  PHRASE(SettingLaw, "setting-law", "", kLine)                             \
+  PHRASE(SettingLever, "setting-lever", "", kLine)                         \
+  PHRASE(SettingTip, "setting-tip", "", kLine)                             \
+  PHRASE(SettingMedium, "setting-medium", "", kLine)                       \
+  PHRASE(SettingMarked, "setting-marked", "setting value", kLine)          \
+  PHRASE(SettingNow, "setting-now", "setting value", kLine)                \
+  PHRASE(SettingNoOther, "setting-no-other", "setting", kLine)             \
+  PHRASE(SettingNoNumbers, "setting-no-numbers", "", kLine)                \
+  PHRASE(SettingsChanged, "settings-changed", "", kLine)                   \
+  PHRASE(KeySettings, "key-settings", "", kLine)                           \
+  PHRASE(GentleLoad, "gentle-load", "", kLine)                             \
+  PHRASE(GentleLoadWhy, "gentle-load-why", "", kLine)                      \
+  PHRASE(LeverAtLeast, "lever-at-least", "", kLine)                        \
+  PHRASE(LeverEnough, "lever-enough", "spring", kLine)                     \
+  PHRASE(LeverTooSoft, "lever-too-soft", "spring", kLine)
 
 // A soft sample that the tip scratches; states as those of physics::PushState up to Slides.
 #define AFM_FOR_EACH_SOFT_PHRASE(PHRASE)                 \

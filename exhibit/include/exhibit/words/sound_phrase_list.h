@@ -35,6 +35,7 @@
   PHRASE(HeardParticleSwept, "heard-particle-swept", kEventPlaces, kLine)            \
   PHRASE(HeardAstrayLeft, "heard-astray-left", kEventPlaces, kLine)                  \
   PHRASE(HeardAstrayRight, "heard-astray-right", kEventPlaces, kLine)                \
+  PHRASE(HeardParticleJammed, "heard-particle-jammed", kEventPlaces, kLine)          \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -67,6 +68,7 @@
   PHRASE(SayParticleSwept, "say-particle-swept", kEventPlaces, kLine)                \
   PHRASE(SayAstrayLeft, "say-astray-left", kEventPlaces, kLine)                      \
   PHRASE(SayAstrayRight, "say-astray-right", kEventPlaces, kLine)                    \
+  PHRASE(SayParticleJammed, "say-particle-jammed", kEventPlaces, kLine)              \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

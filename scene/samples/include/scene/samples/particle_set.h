@@ -83,8 +83,8 @@ std::vector<physics::StickyPad> shared_sticky_pads(const ParticleSet& set);
 // are no farther from it (physics::PatternMatch).
 physics::Length median_radius(const ParticleSet& set);
 
-// The set of a recording, a valid one: that of the assets with the same particles, if there is one, with the tool of
-// the recording; otherwise without words and sources.
+// The set of a recording, a valid one: that of the assets with the same particles, if there is one, with the settings
+// of the recording; otherwise without words and sources.
 ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir);
 
 }  // namespace afm::scene

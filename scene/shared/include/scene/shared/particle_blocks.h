@@ -23,7 +23,8 @@ struct PushSetup;
 
 namespace afm::scene {
 
-enum class PushTool : std::uint16_t { OfSet = 0, Push = 1, Grip = 2 };  // scene/shared/push_tools.h
+struct LevelSample;  // scene/shared/tip_blocks.h
+struct PushSample;
 
 inline constexpr std::uint32_t kMaxParticles = 2048;
 inline constexpr std::uint32_t kMaxSpecies = 8;
@@ -214,6 +215,30 @@ std::vector<physics::PlacedParticle> start_places(const SharedParticles& particl
 
 // ---- written by touchafm ----
 
+enum class PushTool : std::uint16_t { OfSet = 0, Push = 1, Grip = 2 };
+
+// Settings that a person changes among particles, each the number of one of its values (scene/shared/push_values.h);
+// 0: as the set has it.
+struct PushSettings {
+  PushTool tool = PushTool::OfSet;
+  std::uint16_t law = 0;
+  std::uint16_t lever = 0;
+  std::uint16_t tip = 0;
+  std::uint16_t medium = 0;
+
+  bool operator==(const PushSettings&) const = default;
+};
+
+template <class Visit, RecordOf<PushSettings>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... settings) {
+  visit("tool", settings.tool...);
+  visit("law", settings.law...);
+  visit("lever", settings.lever...);
+  visit("tip", settings.tip...);
+  visit("medium", settings.medium...);
+}
+static_assert(all_fields_described<PushSettings>());
+
 // Straight way on which a person plans to push a sphere, in the sample's frame, metres. Stored whenever it changes,
 // recorded with every tick.
 struct PlannedPush {
@@ -314,7 +339,7 @@ struct TipPush {
   std::uint16_t met = 0;            // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
   std::uint16_t lagging = 0;        // 1: the hand was so fast that base_m is behind it
   std::uint16_t strokes = 0;        // number of strokes that can be taken back
-  PushTool tool = PushTool::OfSet;  // tool in use: Push or Grip; OfSet: no particles
+  PushSettings settings{};          // settings in use; the tool is Push or Grip, OfSet without particles
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
   double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
   InkPush ink{};
@@ -348,7 +373,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
   visit("met", push.met...);
   visit("lagging", push.lagging...);
   visit("strokes", push.strokes...);
-  visit("tool", push.tool...);
+  visit("settings", push.settings...);
   visit("rise_m", push.rise_m...);
   visit("fastest_hand_m_per_s", push.fastest_hand_m_per_s...);
   visit("ink", push.ink...);
@@ -359,40 +384,5 @@ static_assert(all_fields_described<TipPush>());
 constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
   return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
 }
-
-// State of the sample below the tip from which a picture of some level is computed, recorded in every tick.
-struct LevelSample {
-  std::int64_t since_ns = 0;  // start of the drift; 0: none
-  std::uint64_t met = 0;      // as in TipPush, but 0 at level 0
-};
-
-template <class Visit, RecordOf<LevelSample>... Record>
-constexpr void for_each_field(Visit&& visit, Record&... level) {
-  visit("drift_since_ns", level.since_ns...);
-  visit("met", level.met...);
-}
-static_assert(all_fields_described<LevelSample>());
-
-// Part of a push that is recorded in every tick.
-struct PushSample {
-  std::uint64_t digest = 0;           // as in TipPush; 0: neither particles nor marks
-  std::array<double, 2> lateral_n{};  // as in TipPush, and below
-  double lift_n = 0;
-  double normal_n = 0;
-  std::int32_t particle = kNoParticle;
-  physics::PushState state = physics::PushState::Free;
-};
-
-template <class Visit, RecordOf<PushSample>... Record>
-constexpr void for_each_field(Visit&& visit, Record&... push) {
-  visit("particle_digest", push.digest...);
-  visit("push_x_N", push.lateral_n[0]...);
-  visit("push_y_N", push.lateral_n[1]...);
-  visit("push_lift_N", push.lift_n...);
-  visit("push_normal_N", push.normal_n...);
-  visit("pushed_particle", push.particle...);
-  visit("push_state", push.state...);
-}
-static_assert(all_fields_described<PushSample>());
 
 }  // namespace afm::scene

@@ -147,15 +147,15 @@ struct SceneTransforms {
   std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
 };
 
-// Material selected with the wand, the scale for feeling it, and the tool among particles. `revision` increases by one
-// with every selection. Another material, scale or tool waits until the tip is off the sample. With `release` the force
-// is removed at once, also if all of them stay.
+// Material selected with the wand, the scale for feeling it, and the settings among particles. `revision` increases by
+// one with every selection. Another material or scale, or other settings wait until the tip is off the sample. With
+// `release` the force is removed at once, also if all of them stay.
 struct Selection {
   std::int32_t material = -1;  // index into SharedModel::materials; -1: none yet
   std::uint32_t revision = 0;
   ScaleMode scale_mode = ScaleMode::Fit;
   std::uint32_t release = 0;  // 0 or 1
-  PushTool tool = PushTool::OfSet;
+  PushSettings settings{};
   std::uint16_t padding = 0;
 };
 

@@ -22,7 +22,7 @@ struct DrivenLever;
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 19;
+inline constexpr std::uint32_t kSegmentVersion = 20;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;
@@ -169,12 +169,16 @@ class EditSide {
   // Newest edit of this material, returned once; unchecked. `material` < kMaxMaterials.
   std::optional<MaterialEdit> new_edit(std::uint32_t material) noexcept;
 
+  // Newest selection, returned once; empty if it is not valid.
+  std::optional<Selection> new_selection() noexcept;
+
  private:
   friend class SharedSegment;
   explicit EditSide(SegmentLayout& layout) : layout_(&layout) {}
 
   SegmentLayout* layout_;
   std::array<std::uint64_t, kMaxMaterials> seen_{};
+  std::uint64_t seen_selection_ = 0;
 };
 
 // Anonymous memory file, sealed against resizing and mapped. It has no name: processes get it by inheriting the

@@ -218,6 +218,41 @@ constexpr void for_each_field(Visit&& visit, Record&... lead) {
 }
 static_assert(all_fields_described<ScanLead>());
 
+// State of the sample below the tip from which a picture of some level is computed, recorded in every tick.
+struct LevelSample {
+  std::int64_t since_ns = 0;  // start of the drift; 0: none
+  std::uint64_t met = 0;      // as in TipPush, but 0 at level 0
+};
+
+template <class Visit, RecordOf<LevelSample>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... level) {
+  visit("drift_since_ns", level.since_ns...);
+  visit("met", level.met...);
+}
+static_assert(all_fields_described<LevelSample>());
+
+// Part of a push that is recorded in every tick.
+struct PushSample {
+  std::uint64_t digest = 0;           // as in TipPush; 0: neither particles nor marks
+  std::array<double, 2> lateral_n{};  // as in TipPush, and below
+  double lift_n = 0;
+  double normal_n = 0;
+  std::int32_t particle = kNoParticle;
+  physics::PushState state = physics::PushState::Free;
+};
+
+template <class Visit, RecordOf<PushSample>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... push) {
+  visit("particle_digest", push.digest...);
+  visit("push_x_N", push.lateral_n[0]...);
+  visit("push_y_N", push.lateral_n[1]...);
+  visit("push_lift_N", push.lift_n...);
+  visit("push_normal_N", push.normal_n...);
+  visit("pushed_particle", push.particle...);
+  visit("push_state", push.state...);
+}
+static_assert(all_fields_described<PushSample>());
+
 // Record of every tick, for curves and sessions. Its bytes are the record of a session file (servo/session_file.h): a
 // new field requires a new version of that format.
 struct TipSample {
@@ -250,7 +285,7 @@ struct TipSample {
   PlannedPush plan{};                       // in effect in this tick; default: none
   std::array<double, 2> guide_n{};  // force of the plan's groove on the hand, along the sample's x and y, unlimited
   LevelSample level{};              // default: level 0
-  PushTool tool = PushTool::OfSet;  // as in TipPush; not in session files, whose particles are those for it
+  PushSettings settings{};          // as in TipPush; not in session files, whose particles are those for them
   std::uint16_t short_padding = 0;
   std::uint32_t padding = 0;
 };
@@ -292,7 +327,7 @@ constexpr void for_each_input(Visit&& visit, Record&... sample) {
   visit("changing", sample.changing...);
   visit("scan", sample.scan...);
   visit("plan", sample.plan...);
-  visit("tool", sample.tool...);
+  visit("settings", sample.settings...);
   visit("short_padding", sample.short_padding...);
   visit("long_padding", sample.padding...);
 }
