@@ -15,7 +15,7 @@ struct Columns {
   static constexpr std::size_t kMost = kMostUnknowns;  // residuals, and all unknowns but the level
 
   std::array<const double*, kMost> values{};
-  std::array<std::size_t, kMost> unknowns{};  // of each column
+  std::array<std::size_t, kMost> unknowns{};  // place of each column among the unknowns
   std::size_t count = 0, dense = 0;           // the columns after the dense ones are 0 before the sample `late`
   std::size_t late = 0, size = 0;             // samples
   std::size_t level = 0;                      // its unknown

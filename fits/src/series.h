@@ -24,7 +24,7 @@ class PressedLever {
 
   struct Pressed {
     Two depth_m{}, force_n{};
-    Two slope_n_per_m{};  // of the contact, without the lever
+    Two slope_n_per_m{};  // contact alone, without the lever
   };
   // Ways as above. `root`: roots of the depths from which the search begins, positive; changed to those of its end.
   Pressed at(const Two& way_m, Two& root) const;

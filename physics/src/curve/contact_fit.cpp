@@ -123,10 +123,11 @@ class Misfit {
     std::vector<std::size_t> node;
     std::vector<double> behind;
   };
-  Places places_below(double contact) const {
+  void find_places(double contact, Places& places) const {
     const auto outside = std::find_if(profile_.z.rbegin(), profile_.z.rend(), [&](double z) { return !(z < contact); });
     const auto count = static_cast<std::size_t>(outside - profile_.z.rbegin());
-    Places places{std::vector<std::size_t>(count), std::vector<double>(count)};
+    places.node.resize(count);
+    places.behind.resize(count);
     const double per_depth = 1.0 / (contact - profile_.z.back());
     const double* z = profile_.z.data() + profile_.z.size();
     std::size_t* node = places.node.data();
@@ -135,7 +136,6 @@ class Misfit {
       *node++ = place.node;
       behind = place.behind;
     }
-    return places;
   }
 
   // Two points at once.
@@ -172,12 +172,14 @@ class Misfit {
   }
 
   // The best share of the lever: climbed to in steps, at last along a parabola. `near`: that of a neighbouring place,
-  // if there is one, which is close to it; where it takes less than `hopeless`, it is taken as the best.
-  PlaceFit best_at(double contact, Indenter indenter, std::optional<double> near, double hopeless) const {
+  // if there is one, which is close to it; where it takes less than `hopeless`, it is taken as the best. `places` is
+  // room to work in.
+  PlaceFit best_at(double contact, Indenter indenter, std::optional<double> near, double hopeless,
+                   Places& places) const {
     constexpr int kShares = ForceShapes::kShares, kFine = 8, kFiner = 4, kCoarse = kFine * kFiner * kFiner;
     PlaceFit best{-1.0, contact, 0.0, indenter};
     const ForceShapes& shapes = ForceShapes::of(indenter);
-    const Places places = places_below(contact);
+    find_places(contact, places);
     const auto taken = [&](int node) {
       const double value = taken_by(shapes.at(static_cast<std::size_t>(node)), places);
       if (value > best.taken) {
@@ -205,7 +207,8 @@ class Misfit {
       const double bent = below - 2.0 * here + above;
       if (bent < 0.0) {
         const double way = std::clamp(0.5 * (below - above) / bent, -1.0, 1.0);
-        taken(middle + static_cast<int>(std::lround(way * step)));
+        const int off = static_cast<int>(std::lround(way * step));
+        if (off % step != 0) taken(middle + off);
       }
       return best;
     }
@@ -260,12 +263,13 @@ std::vector<PlaceFit> fits_at_places(const Misfit& misfit, double low, double hi
   std::vector<PlaceFit> fits;
   fits.reserve(2 * (kPlaces + 1 + kPasses * 2 * (kFiner - 1)));
   double most = 0.0;  // taken by either
+  Misfit::Places places;
   for (const Indenter indenter : {Indenter::Sphere, Indenter::Cone}) {
     PlaceFit best;
     const auto try_at = [&](double contact, const PlaceFit& neighbour) {
       const auto near = neighbour.taken > 0.0 ? std::optional(neighbour.lever_share) : std::nullopt;
       const double hopeless = misfit.squares() - kMuchWorse * (misfit.squares() - most);
-      fits.push_back(misfit.best_at(std::clamp(contact, low, high), indenter, near, hopeless));
+      fits.push_back(misfit.best_at(std::clamp(contact, low, high), indenter, near, hopeless, places));
       if (fits.back().taken > best.taken) best = fits.back();
       most = std::max(most, best.taken);
       return fits.back();

@@ -38,7 +38,7 @@ class Touching {
   explicit Touching(const ApproachProfile& profile) : profile_(profile), end_(profile.z.size()) {}
 
   struct Sums {
-    double squares, with_force;  // of the depths, and their products with the force
+    double squares, with_force;  // sums of depth squared, and depth times force
   };
   Sums below(double contact) {
     const double deepest = profile_.z.back();
