@@ -20,7 +20,7 @@ namespace {
 // std::nth_element, but without a branch for each value, which a processor guesses wrong for half of the noise.
 void put_in_place(std::vector<double>& values, std::size_t place) {
   constexpr std::size_t kFew = 12;
-  constexpr int kMostRounds = 40;  // of values that were arranged against it
+  constexpr int kMostRounds = 40;  // rounds before nth_element takes over: values may be arranged against it
   double* const all = values.data();
   std::size_t low = 0, high = values.size();
   // moves the values for which this holds to the front
