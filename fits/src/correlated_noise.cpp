@@ -4,144 +4,113 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
+
+#include "noise_likelihood.h"
 
 namespace afm::fits {
 
 namespace {
 
-constexpr std::size_t kLags = kMostNoiseOrder + 1;
-constexpr double kNone = std::numeric_limits<double>::infinity();
-
-using Orders = std::array<double, kMostNoiseOrder>;
-
-// Sums over t of the products of residual and columns, each at two lags: with them the likelihood costs no pass over
-// the curve.
-class LaggedProducts {
- public:
-  LaggedProducts(std::span<const double> residuals, std::span<const double> jacobian)
-      : columns_(jacobian.size() / residuals.size() + 1), count_(residuals.size() - kMostNoiseOrder) {
-    const std::size_t n = residuals.size();
-    std::vector<double> rows(n * columns_);  // by time, the residual first
-    for (std::size_t t = 0; t < n; ++t) {
-      rows[t * columns_] = residuals[t];
-      for (std::size_t c = 1; c < columns_; ++c)
-        rows[t * columns_ + c] = jacobian[(c - 1) * n + t] / norm(jacobian, n, c - 1);
-    }
-    const std::size_t entries = columns_ * (columns_ + 1) / 2;
-    sums_.reserve(kLags * (kLags + 1) / 2 * entries);
-    for (std::size_t i = 0; i < kLags; ++i) {
-      for (std::size_t j = 0; j <= i; ++j) add(rows, i, j);
-    }
-  }
-
-  std::size_t columns() const { return columns_; }
-  double count() const { return static_cast<double>(count_); }
-
-  // The products of the whitened columns, of which the filter is 1 and the negative coefficients: the triangle of a
-  // symmetric matrix, row by row, up to the diagonal.
-  void whitened(std::span<const double> filter, std::vector<double>& triangle) const {
-    triangle.assign(columns_ * (columns_ + 1) / 2, 0.0);
-    const double* sums = sums_.data();
-    for (std::size_t i = 0; i < filter.size(); ++i) {
-      for (std::size_t j = 0; j <= i; ++j) {
-        const double weight = filter[i] * filter[j];
-        for (double& entry : triangle) entry += weight * *sums++;
-      }
-    }
-  }
-
- private:
-  // keeps the elimination well conditioned
-  static double norm(std::span<const double> jacobian, std::size_t n, std::size_t column) {
-    double largest = 0.0;
-    for (std::size_t t = 0; t < n; t += std::max<std::size_t>(1, n / 64)) {
-      largest = std::max(largest, std::abs(jacobian[column * n + t]));
-    }
-    return largest > 0.0 ? largest : 1.0;
-  }
-
-  // Of two different lags the sum of both orders, since the filter weighs them alike.
-  void add(const std::vector<double>& rows, std::size_t i, std::size_t j) {
-    std::vector<double> sums(columns_ * columns_, 0.0);
-    for (std::size_t t = kMostNoiseOrder; t < kMostNoiseOrder + count_; ++t) {
-      const double* a = &rows[(t - i) * columns_];
-      const double* b = &rows[(t - j) * columns_];
-      for (std::size_t row = 0; row < columns_; ++row) {
-        for (std::size_t column = 0; column < columns_; ++column) sums[row * columns_ + column] += a[row] * b[column];
-      }
-    }
-    for (std::size_t row = 0; row < columns_; ++row) {
-      for (std::size_t column = 0; column <= row; ++column) {
-        const double one = sums[row * columns_ + column], other = sums[column * columns_ + row];
-        sums_.push_back(i == j ? one : one + other);
-      }
-    }
-  }
-
-  std::size_t columns_, count_;
-  std::vector<double> sums_;  // a triangle of columns for each pair of lags
-};
+constexpr double kMostPartial = 0.9995;  // magnitude of a partial correlation
 
 // Coefficients of a stationary process from its partial correlations (Durbin & Levinson).
-Orders coefficients_in(std::span<const double> partial) {
+Orders coefficients_of(const Orders& partial, std::size_t order) {
   Orders c{};
-  for (std::size_t k = 0; k < partial.size(); ++k) {
+  for (std::size_t k = 0; k < order; ++k) {
     const Orders before = c;
     for (std::size_t j = 0; j < k; ++j) c[j] = before[j] - partial[k] * before[k - 1 - j];
     c[k] = partial[k];
   }
   return c;
 }
-std::vector<double> coefficients_of(std::span<const double> partial) {
-  const Orders c = coefficients_in(partial);
-  return {c.begin(), c.begin() + static_cast<std::ptrdiff_t>(partial.size())};
+
+// The other way round. Empty for a process that is not stationary, or hardly.
+std::optional<Orders> partial_of(Orders c, std::size_t order) {
+  Orders partial{};
+  for (std::size_t k = order; k-- > 0;) {
+    const double last = partial[k] = c[k];
+    if (!(std::abs(last) <= kMostPartial)) return std::nullopt;
+    const Orders after = c;
+    for (std::size_t j = 0; j < k; ++j) c[j] = (after[j] + last * after[k - 1 - j]) / (1.0 - last * last);
+  }
+  return partial;
 }
 
-// Twice the negative restricted log-likelihood for these partial correlations, but for a constant. The triangle is
-// overwritten: a search asks a thousand times.
-double deviance(const LaggedProducts& products, std::span<const double> partial, std::vector<double>& triangle) {
-  std::array<double, kLags> filter{1.0};
-  const Orders coefficients = coefficients_in(partial);
-  for (std::size_t j = 0; j < partial.size(); ++j) filter[j + 1] = -coefficients[j];
-  products.whitened(std::span(filter).first(partial.size() + 1), triangle);
-  // eliminates the columns of the fit one by one: what is left of the residual's square is the sum after the fit
-  const auto row = [&triangle](std::size_t a) { return &triangle[a * (a + 1) / 2]; };
-  double log_determinant = 0.0;
-  for (std::size_t pivot = products.columns() - 1; pivot >= 1; --pivot) {
-    const double* last = row(pivot);
-    const double p = last[pivot];
-    if (!(p > 0.0)) return kNone;
-    log_determinant += std::log(p);
-    for (std::size_t a = 0; a < pivot; ++a) {
-      const double factor = last[a] / p;
-      double* here = row(a);
-      for (std::size_t b = 0; b <= a; ++b) here[b] -= factor * last[b];
+// Solution of a symmetric system (Cholesky). Empty if its matrix is not positive.
+std::optional<Orders> solved(OrderMatrix l, Orders right, std::size_t order) {
+  for (std::size_t i = 0; i < order; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = l[i][j];
+      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      if (i == j && !(sum > 0.0)) return std::nullopt;
+      l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
+    }
+    for (std::size_t k = 0; k < i; ++k) right[i] -= l[i][k] * right[k];
+    right[i] /= l[i][i];
+  }
+  for (std::size_t i = order; i-- > 0;) {
+    for (std::size_t k = i + 1; k < order; ++k) right[i] -= l[k][i] * right[k];
+    right[i] /= l[i][i];
+  }
+  return right;
+}
+
+// Minimum by Newton's method, within the stationary processes. Empty if it does not end.
+std::optional<Orders> stepped_minimum(const LaggedProducts& products, std::size_t order, Orders coefficients) {
+  constexpr int kMostSteps = 20, kHalvings = 8;
+  constexpr double kClose = 1e-6;  // the error of a step is about the square
+  Deviance here = deviance_with_slopes(products, coefficients, order);
+  for (int step = 0; step < kMostSteps; ++step) {
+    auto change = solved(here.curvature, here.gradient, order);
+    if (!change) change = solved(here.rounder, here.gradient, order);
+    if (!change) return std::nullopt;
+    double largest = 0.0;
+    for (const double each : *change) largest = std::max(largest, std::abs(each));
+    if (largest < kClose) return coefficients;
+    double share = 1.0;
+    for (int halving = 0;; ++halving, share *= 0.5) {
+      if (halving == kHalvings) return std::nullopt;
+      Orders tried(coefficients);
+      for (std::size_t j = 0; j < order; ++j) tried[j] -= share * (*change)[j];
+      if (!partial_of(tried, order)) continue;
+      const Deviance there = deviance_with_slopes(products, tried, order);
+      if (!(there.value < here.value)) continue;
+      coefficients = tried;
+      here = there;
+      break;
     }
   }
-  const double free = products.count() - static_cast<double>(products.columns() - 1);
-  return triangle.front() > 0.0 ? free * std::log(triangle.front()) + log_determinant : kNone;
+  return std::nullopt;
 }
 
-// Minimum over the partial correlations, one after the other by golden sections, until none moves.
-std::vector<double> best_of_order(const LaggedProducts& products, std::size_t order, std::vector<double> partial) {
-  constexpr double kMost = 0.9995, kClose = 1e-4;
+// Whether a process that is hardly stationary is likelier than a minimum: where the model misses the curve, the other
+// minima are of no noise.
+bool is_lower_at_the_edge(const LaggedProducts& products, std::size_t order, const Orders& coefficients) {
+  auto partial = partial_of(coefficients, order);
+  if (!partial) return true;
+  partial->front() = kMostPartial;
+  return deviance(products, coefficients_of(*partial, order), order) < deviance(products, coefficients, order);
+}
+
+// Minimum over the partial correlations, one after the other by golden sections, until none moves: slow, but ends
+// wherever the process is hardly stationary.
+Orders searched_minimum(const LaggedProducts& products, std::size_t order, Orders partial) {
+  constexpr double kClose = 1e-4;
   constexpr int kRounds = 12;
   constexpr double kGolden = std::numbers::phi - 1.0;
-  partial.resize(order, 0.0);
-  std::vector<double> triangle;
-  const auto value = [&] { return deviance(products, partial, triangle); };
   for (int round = 0; round < kRounds; ++round) {
     double moved = 0.0;
-    for (double& one : partial) {
+    for (std::size_t k = 0; k < order; ++k) {
+      double& one = partial[k];
       const double before = one;
       const double reach = round == 0 ? 2.0 : 0.2;
-      double low = std::max(-kMost, before - reach), high = std::min(kMost, before + reach);
+      double low = std::max(-kMostPartial, before - reach), high = std::min(kMostPartial, before + reach);
       const auto at = [&](double x) {
         one = x;
-        return value();
+        return deviance(products, coefficients_of(partial, order), order);
       };
       double a = high - kGolden * (high - low), b = low + kGolden * (high - low), at_a = at(a), at_b = at(b);
       while (high - low > 0.5 * kClose) {
@@ -162,7 +131,7 @@ std::vector<double> best_of_order(const LaggedProducts& products, std::size_t or
     }
     if (moved < kClose) break;
   }
-  return partial;
+  return coefficients_of(partial, order);
 }
 
 }  // namespace
@@ -171,17 +140,22 @@ std::vector<double> noise_coefficients(std::span<const double> residuals, std::s
   constexpr std::size_t kFewest = 10 * kMostNoiseOrder;
   if (residuals.size() < kFewest) return {};
   const LaggedProducts products(residuals, jacobian);
-  std::vector<double> partial, best, triangle;
-  double least = deviance(products, {}, triangle);
+  Orders coefficients{};
+  std::vector<double> best;
+  double least = deviance(products, coefficients, 0);
   for (std::size_t order = 1; order <= kMostNoiseOrder; ++order) {
-    partial = best_of_order(products, order, partial);
-    const double criterion = deviance(products, partial, triangle) + 2.0 * static_cast<double>(order);
+    // from those of the order before, and a zero
+    const auto stepped = stepped_minimum(products, order, coefficients);
+    const bool ends = stepped && !is_lower_at_the_edge(products, order, *stepped);
+    coefficients =
+        ends ? *stepped : searched_minimum(products, order, partial_of(coefficients, order).value_or(Orders{}));
+    const double criterion = deviance(products, coefficients, order) + 2.0 * static_cast<double>(order);
     if (criterion < least) {
       least = criterion;
-      best = partial;
+      best.assign(coefficients.begin(), coefficients.begin() + static_cast<std::ptrdiff_t>(order));
     }
   }
-  return coefficients_of(best);
+  return best;
 }
 
 std::size_t whiten(std::span<const double> coefficients, std::span<double> values) {

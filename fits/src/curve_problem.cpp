@@ -2,11 +2,12 @@
 #include "curve_problem.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "adhesive_branch.h"
-#include "correlated_noise.h"
 #include "least_squares.h"
 #include "series.h"
 
@@ -14,74 +15,147 @@ namespace afm::fits {
 
 CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setup)
     : setup_(setup), is_adhesive_(row_of(setup.indenter.shape).is_adhesive) {
+  z_m_.reserve(samples.size());
+  force_n_.reserve(samples.size());
+  way_m_.reserve(samples.size());
+  sticks_.reserve(samples.size());
   for (const Sample& sample : samples) {
     z_m_.push_back(sample.z_m);
     force_n_.push_back(sample.force_n);
+    way_m_.push_back(sample.z_m - samples.front().z_m);
     sticks_.push_back(sample.sticks);
   }
-  origin_m_ = z_m_.front();
 }
 
-// In series with the lever, or against the tip (F8): d = z_c - (Z + F_measured/k).
-CurveProblem::Bent CurveProblem::bent(const Unknowns& unknowns, double modulus_pa, std::size_t sample) const {
-  const double spring = setup_.spring_n_per_m;
-  const double measured_n = force_n_[sample] - setup_.zero_n;
-  if (setup_.against == Against::Tip) {
-    const double depth_m = unknowns[kContact] - (z_m_[sample] + measured_n / spring);
-    const Push push = push_of(setup_.indenter, depth_m);
-    const double force_n = modulus_pa * push.force;
-    return {depth_m > 0.0, std::max(depth_m, 0.0), force_n, force_n, modulus_pa * push.slope, 0.0};
+// In series with the lever, two samples at once. The arrays are reached by pointers: a check of each index would cost
+// as much as the arithmetic.
+void CurveProblem::press(CurveModel& model) const {
+  const double spring = setup_.spring_n_per_m, contact_m = model.unknowns[kContact], level_n = model.unknowns[kLevel];
+  const PressedLever lever(setup_.indenter, std::exp(model.unknowns[kModulus]), spring);
+  double* const near = model.near.data();
+  std::size_t first = 0;
+  bool waits = false;
+  Two way_m{}, root{};
+  const auto put = [&, depth_m = model.depth_m.data(), force_n = model.residual_n.data(),
+                    by_modulus_n = model.by_modulus_n.data(), by_contact = model.by_contact_n_per_m.data(),
+                    touch = model.touch.data()](std::size_t t, const PressedLever::Pressed& pressed, int i) {
+    const double softer = 1.0 / (1.0 + pressed.slope_n_per_m[i] / spring);
+    depth_m[t] = pressed.depth_m[i];
+    force_n[t] = pressed.force_n[i];
+    by_modulus_n[t] = pressed.force_n[i] * softer;
+    by_contact[t] = pressed.slope_n_per_m[i] * softer;
+    near[t] = root[i];
+    touch[t] = 1;
+  };
+  const double* const z_m = z_m_.data();
+  const double* const measured_n = force_n_.data();
+  for (std::size_t t = 0; t < size(); ++t) {
+    const double way = contact_m - z_m[t];
+    if (!(way > 0.0)) continue;
+    // at first from the depth that was measured
+    constexpr double kLeast = 0.01;  // share of the way
+    const double start =
+        near[t] > 0.0 ? near[t] : std::sqrt(std::clamp(way - (measured_n[t] - level_n) / spring, kLeast * way, way));
+    if (!waits) {
+      // a last one alone counts twice
+      way_m = Two{way, way};
+      root = Two{start, start};
+      first = t;
+      waits = true;
+      continue;
+    }
+    way_m[1] = way;
+    root[1] = start;
+    const PressedLever::Pressed pressed = lever.at(way_m, root);
+    put(first, pressed, 0);
+    put(t, pressed, 1);
+    waits = false;
   }
-  const double way_m = unknowns[kContact] - z_m_[sample];
-  if (!(way_m > 0.0)) return {};
-  const double near_m = way_m - (force_n_[sample] - unknowns[kLevel]) / spring;
-  const auto [depth_m, push] = in_series(setup_.indenter, modulus_pa, spring, way_m, near_m);
-  const double softer = 1.0 / (1.0 + modulus_pa * push.slope / spring);
-  const double force_n = modulus_pa * push.force;
-  return {true, depth_m, force_n, force_n * softer, modulus_pa * push.slope * softer, 0.0};
+  if (waits) put(first, lever.at(way_m, root), 0);
+}
+
+// F8: d = z_c - (Z + F_measured/k)
+void CurveProblem::press_against_tip(CurveModel& model) const {
+  const double modulus_pa = std::exp(model.unknowns[kModulus]);
+  for (std::size_t t = 0; t < size(); ++t) {
+    const double tip_m = z_m_[t] + (force_n_[t] - setup_.zero_n) / setup_.spring_n_per_m;
+    const double depth_m = model.unknowns[kContact] - tip_m;
+    if (!(depth_m > 0.0)) continue;
+    const Push push = push_of(setup_.indenter, depth_m);
+    model.depth_m[t] = depth_m;
+    model.residual_n[t] = modulus_pa * push.force;
+    model.by_modulus_n[t] = model.residual_n[t];
+    model.by_contact_n_per_m[t] = modulus_pa * push.slope;
+    model.touch[t] = 1;
+  }
 }
 
 // The samples that touch are known beforehand, because the law has two forces at one height.
-std::vector<CurveProblem::Bent> CurveProblem::all_held(const Unknowns& unknowns) const {
+void CurveProblem::hold(CurveModel& model) const {
   const Indenter& indenter = setup_.indenter;
+  const Unknowns& unknowns = model.unknowns;
   const AdhesiveBranch branch(indenter.shape,
                               {physics::Length(indenter.radius_m), physics::Pressure(std::exp(unknowns[kModulus])),
                                physics::SurfaceEnergy(std::exp(unknowns[work()]))},
                               indenter.atomic_distance_m, setup_.spring_n_per_m);
-  std::vector<Bent> all(size());
   double near = branch.fold();
   for (std::size_t t = 0; t < size(); ++t) {
     if (!sticks_[t]) continue;
     const AdhesiveBranch::Held held = branch.at(unknowns[kContact] - z_m_[t], near);
-    all[t] = {true, held.depth_m, held.force_n, held.by_modulus_n, held.by_contact_n_per_m, held.by_work_n};
-  }
-  return all;
-}
-
-std::vector<CurveProblem::Bent> CurveProblem::all_bent(const Unknowns& unknowns) const {
-  if (is_adhesive_) return all_held(unknowns);
-  std::vector<Bent> all(size());
-  const double modulus_pa = std::exp(unknowns[kModulus]);
-  for (std::size_t t = 0; t < size(); ++t) all[t] = bent(unknowns, modulus_pa, t);
-  return all;
-}
-
-void CurveProblem::fill(const Unknowns& unknowns, const std::vector<Bent>& bent, std::span<double> residuals) const {
-  for (std::size_t t = 0; t < size(); ++t) {
-    const double tilt_n = setup_.tilt ? unknowns[kTilt] * (z_m_[t] - origin_m_) : 0.0;
-    residuals[t] = bent[t].force_n + unknowns[kLevel] + tilt_n - force_n_[t];
+    model.depth_m[t] = held.depth_m;
+    model.residual_n[t] = held.force_n;
+    model.by_modulus_n[t] = held.by_modulus_n;
+    model.by_contact_n_per_m[t] = held.by_contact_n_per_m;
+    model.by_work_n[t] = held.by_work_n;
+    model.touch[t] = 1;
   }
 }
 
-void CurveProblem::fill_jacobian(const std::vector<Bent>& bent, std::span<double> jacobian) const {
+const CurveModel& CurveProblem::model(const Unknowns& unknowns) const {
+  CurveModel& model = last_;
+  if (unknowns == model.unknowns) return model;
   const std::size_t n = size();
-  for (std::size_t t = 0; t < n; ++t) {
-    jacobian[kModulus * n + t] = bent[t].by_modulus_n;
-    jacobian[kContact * n + t] = bent[t].by_contact_n_per_m;
-    jacobian[kLevel * n + t] = 1.0;
-    if (setup_.tilt) jacobian[kTilt * n + t] = z_m_[t] - origin_m_;
-    if (is_adhesive_) jacobian[work() * n + t] = bent[t].by_work_n;
+  model.near.resize(n, 0.0);
+  for (std::vector<double>* const column :
+       {&model.residual_n, &model.depth_m, &model.by_modulus_n, &model.by_contact_n_per_m}) {
+    column->assign(n, 0.0);
   }
+  if (is_adhesive_) model.by_work_n.assign(n, 0.0);
+  model.touch.assign(n, 0);
+  model.unknowns = unknowns;
+  if (is_adhesive_) {
+    hold(model);
+  } else if (setup_.against == Against::Tip) {
+    press_against_tip(model);
+  } else {
+    press(model);
+  }
+  const double level_n = unknowns[kLevel], tilt = setup_.tilt ? unknowns[kTilt] : 0.0;
+  for (std::size_t t = 0; t < n; ++t) {
+    model.residual_n[t] += level_n + tilt * way_m_[t] - force_n_[t];
+  }
+  const auto first = std::find(model.touch.begin(), model.touch.end(), 1);
+  model.first_touch = static_cast<std::size_t>(first - model.touch.begin());
+  return model;
+}
+
+Gram CurveProblem::gram(const Unknowns& unknowns, std::span<const double> noise) const {
+  const CurveModel& here = model(unknowns);
+  Columns columns;
+  const auto add = [&](const std::vector<double>& values, std::size_t unknown) {
+    columns.values[columns.count] = values.data();
+    columns.unknowns[columns.count++] = unknown;
+  };
+  add(here.residual_n, unknown_count());
+  if (setup_.tilt) add(way_m_, kTilt);
+  columns.dense = columns.count;
+  add(here.by_modulus_n, kModulus);
+  add(here.by_contact_n_per_m, kContact);
+  if (is_adhesive_) add(here.by_work_n, work());
+  columns.late = here.first_touch;
+  columns.size = size();
+  columns.level = kLevel;
+  return {columns, noise};
 }
 
 std::optional<Unknowns> CurveProblem::start_at(double contact_m) const {
@@ -124,56 +198,52 @@ std::optional<Unknowns> CurveProblem::start_at(double contact_m) const {
   return start;
 }
 
+// The solver sees as few residuals as unknowns, with the same sums: each of its steps is that of the whole curve.
 double CurveProblem::minimise(Unknowns& unknowns, std::span<const double> noise, std::optional<std::size_t> held,
                               double reduction) const {
-  const std::size_t n = size(), left = n - noise.size();
   std::vector<std::size_t> freed;
-  for (std::size_t c = 0; c < unknown_count(); ++c) {
-    if (c != held) freed.push_back(c);
-  }
-  std::vector<double> columns(n * unknown_count());
-  // the solver asks for the Jacobian where it has just asked for the residuals
-  Unknowns at;
-  std::vector<Bent> bent;
-  const auto white = [&](std::span<double> values, std::span<double> to) {
-    whiten(noise, values);
-    std::copy_n(values.begin(), left, to.begin());
-  };
-  const Residuals evaluate = [&](std::span<const double> free, std::span<double> residuals,
-                                 std::span<double> jacobian) {
-    Unknowns now(unknowns);
-    for (std::size_t c = 0; c < free.size(); ++c) now[freed[c]] = free[c];
-    if (now != at) {
-      bent = all_bent(now);
-      at = now;
-    }
-    const std::span all(columns);
-    if (jacobian.empty()) {
-      fill(now, bent, all.first(n));
-      return white(all.first(n), residuals);
-    }
-    fill_jacobian(bent, all);
-    for (std::size_t c = 0; c < freed.size(); ++c) {
-      white(all.subspan(freed[c] * n, n), jacobian.subspan(c * left, left));
-    }
-  };
   std::vector<double> free;
-  free.reserve(freed.size());
-  for (const std::size_t c : freed) free.push_back(unknowns[c]);
-  const double squares = least_squares(evaluate, left, free, reduction);
+  freed.reserve(unknown_count());
+  free.reserve(unknown_count());
+  for (std::size_t c = 0; c < unknown_count(); ++c) {
+    if (c == held) continue;
+    freed.push_back(c);
+    free.push_back(unknowns[c]);
+  }
+  if (size() < noise.size() + freed.size()) return std::numeric_limits<double>::quiet_NaN();
+  // the solver asks for the Jacobian where it has just asked for the residuals
+  Unknowns now(unknowns);
+  std::optional<Gram::Few> few;
+  const Residuals evaluate = [&](std::span<const double> values, std::span<double> residuals,
+                                 std::span<double> jacobian) {
+    bool same = few.has_value();
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      same = same && now[freed[c]] == values[c];
+      now[freed[c]] = values[c];
+    }
+    if (!same) few = gram(now, noise).few(held);
+    if (jacobian.empty()) {
+      std::copy_n(few->residuals.begin(), residuals.size(), residuals.begin());
+    } else {
+      std::copy_n(few->jacobian.begin(), jacobian.size(), jacobian.begin());
+    }
+  };
+  const double squares = least_squares(evaluate, freed.size() + 1, free, reduction);
   for (std::size_t c = 0; c < freed.size(); ++c) unknowns[freed[c]] = free[c];
   return squares;
 }
 
-std::vector<double> CurveProblem::residuals(const Unknowns& unknowns) const {
-  std::vector<double> residuals(size());
-  fill(unknowns, all_bent(unknowns), residuals);
-  return residuals;
-}
-
 std::vector<double> CurveProblem::jacobian(const Unknowns& unknowns) const {
-  std::vector<double> jacobian(size() * unknown_count());
-  fill_jacobian(all_bent(unknowns), jacobian);
+  const CurveModel& here = model(unknowns);
+  const auto n = static_cast<std::ptrdiff_t>(size());
+  std::vector<double> jacobian(size() * unknown_count(), 1.0);
+  const auto fill = [&](std::size_t unknown, const std::vector<double>& column) {
+    std::copy(column.begin(), column.end(), jacobian.begin() + static_cast<std::ptrdiff_t>(unknown) * n);
+  };
+  fill(kModulus, here.by_modulus_n);
+  fill(kContact, here.by_contact_n_per_m);
+  if (setup_.tilt) fill(kTilt, way_m_);
+  if (is_adhesive_) fill(work(), here.by_work_n);
   return jacobian;
 }
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "fits/elastic_fit.h"
+#include "gram.h"
 #include "least_squares.h"
 
 namespace afm::fits {
@@ -16,7 +18,19 @@ namespace afm::fits {
 using Unknowns = std::vector<double>;
 inline constexpr std::size_t kModulus = 0, kContact = 1, kLevel = 2, kTilt = 3;
 
-// The curve as a problem of least squares. Lengths are in metres.
+// The model at all samples, for one set of unknowns.
+struct CurveModel {
+  Unknowns unknowns;                // empty: not computed yet
+  std::vector<double> residual_n;   // model, with its baseline, less measured
+  std::vector<double> depth_m;      // 0 where the tip is free
+  std::vector<std::uint8_t> touch;  // 1 where the tip touches
+  // derivatives of the force by the unknowns; 0 where the tip is free
+  std::vector<double> by_modulus_n, by_contact_n_per_m, by_work_n;
+  std::vector<double> near;     // ends of the searches for the depths, where the next ones begin; 0: none yet
+  std::size_t first_touch = 0;  // sample; the number of samples if none touches
+};
+
+// The curve as a problem of least squares. Lengths are in metres. One thread.
 class CurveProblem {
  public:
   CurveProblem(std::span<const Sample> samples, const FitSetup& setup);
@@ -35,31 +49,27 @@ class CurveProblem {
   double minimise(Unknowns& unknowns, std::span<const double> noise = {}, std::optional<std::size_t> held = {},
                   double reduction = kWholeReduction) const;
 
+  // Valid until the next call with other unknowns; costs nothing with those of the last one.
+  const CurveModel& model(const Unknowns& unknowns) const;
+
+  // Products of the whitened columns there.
+  Gram gram(const Unknowns& unknowns, std::span<const double> noise) const;
+
   // Model less measured, and its derivatives, column by column; without noise's whitening.
-  std::vector<double> residuals(const Unknowns& unknowns) const;
+  std::vector<double> residuals(const Unknowns& unknowns) const { return model(unknowns).residual_n; }
   std::vector<double> jacobian(const Unknowns& unknowns) const;
 
-  // Model at one sample.
-  struct Bent {
-    bool touches = false;
-    double depth_m = 0, force_n = 0;  // without the baseline
-    double by_modulus_n = 0;          // derivative by the logarithm of the modulus
-    double by_contact_n_per_m = 0;    // derivative by the contact point
-    double by_work_n = 0;             // derivative by the logarithm of the work of adhesion
-  };
-  std::vector<Bent> all_bent(const Unknowns& unknowns) const;
-
  private:
-  Bent bent(const Unknowns& unknowns, double modulus_pa, std::size_t sample) const;
-  std::vector<Bent> all_held(const Unknowns& unknowns) const;
-  void fill(const Unknowns& unknowns, const std::vector<Bent>& bent, std::span<double> residuals) const;
-  void fill_jacobian(const std::vector<Bent>& bent, std::span<double> jacobian) const;
+  void press(CurveModel& model) const;
+  void press_against_tip(CurveModel& model) const;
+  void hold(CurveModel& model) const;
 
   FitSetup setup_;
   bool is_adhesive_;
   std::vector<double> z_m_, force_n_;
+  std::vector<double> way_m_;  // from the first sample, for the tilt
   std::vector<bool> sticks_;
-  double origin_m_;  // place where the tilt is zero
+  mutable CurveModel last_;  // solver and verdict ask for the same unknowns again and again
 };
 
 }  // namespace afm::fits

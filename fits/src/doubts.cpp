@@ -25,13 +25,14 @@ double greatest_push_n(std::span<const Sample> samples, const ElasticFit& fit) {
   return greatest;
 }
 
-// Smallest step between two forces; of a digitised curve that of its converter.
-double smallest_step_n(std::span<const Sample> samples) {
+// Smallest step between two forces, of a range of forces; of a digitised curve that of its converter. 0 where forces
+// differ by their rounding alone.
+double smallest_step_n(std::span<const Sample> samples, double range_n) {
   constexpr double kSame = 1e-6;  // share of the range
   std::vector<double> forces;
+  forces.reserve(samples.size());
   for (const Sample& sample : samples) forces.push_back(sample.force_n);
   std::sort(forces.begin(), forces.end());
-  const double range_n = forces.back() - forces.front();
   double smallest = range_n;
   for (std::size_t i = 1; i < forces.size(); ++i) {
     const double step = forces[i] - forces[i - 1];
@@ -39,6 +40,16 @@ double smallest_step_n(std::span<const Sample> samples) {
     if (step > 0.0 && step <= kSame * range_n && forces[i] - forces.front() > kSame * range_n) return 0.0;
   }
   return smallest;
+}
+
+// The same, but any step below `enough_n` is small enough: mostly a few samples have one.
+double step_n(std::span<const Sample> samples, double enough_n) {
+  constexpr std::size_t kFew = 64;
+  const auto [low, high] = std::minmax_element(samples.begin(), samples.end(),
+                                               [](const Sample& a, const Sample& b) { return a.force_n < b.force_n; });
+  const double range_n = high->force_n - low->force_n;
+  const double of_few = smallest_step_n(samples.first(std::min(kFew, samples.size())), range_n);
+  return of_few < enough_n ? of_few : smallest_step_n(samples, range_n);
 }
 
 class Judge {
@@ -110,10 +121,10 @@ class Judge {
 
   void judge_residuals(ElasticFit& fit) {
     judge_level(fit);
-    const double step_n = smallest_step_n(samples_);
+    const double digit_n = step_n(samples_, fit.noise_n);
     // steps larger than the noise make runs of their own
-    if (step_n <= fit.noise_n) add(fit, Doubt::NotRandom, fit.runs_p);
-    const double rounding_n = step_n / std::sqrt(12.0);
+    if (digit_n <= fit.noise_n) add(fit, Doubt::NotRandom, fit.runs_p);
+    const double rounding_n = digit_n / std::sqrt(12.0);
     add(fit, Doubt::Misfit, fit.rms_n / std::max(most_noise_n(fit), rounding_n));
   }
 
@@ -121,11 +132,10 @@ class Judge {
   // to the next count as (1 - rho^2)/(1 + rho^2) independent ones.
   double most_noise_n(const ElasticFit& fit) const {
     constexpr double kChance = 3.0, kMostCorrelated = 0.999;
-    const std::vector<double> residuals = problem_.residuals(ended_.unknowns);
-    const std::vector<CurveProblem::Bent> bent = problem_.all_bent(ended_.unknowns);
+    const CurveModel& model = problem_.model(ended_.unknowns);
     std::vector<double> free;
-    for (std::size_t t = 0; t < residuals.size(); ++t) {
-      if (!bent[t].touches) free.push_back(residuals[t]);
+    for (std::size_t t = 0; t < model.touch.size(); ++t) {
+      if (model.touch[t] == 0) free.push_back(model.residual_n[t]);
     }
     if (free.size() < kFewest || !(fit.noise_n > 0.0)) return fit.noise_n;
     const double squares = std::inner_product(free.begin(), free.end(), free.begin(), 0.0);
@@ -139,11 +149,11 @@ class Judge {
   void judge_level(ElasticFit& fit) {
     std::vector<Sample> shallow;
     std::size_t pushed = 0;
-    const std::vector<CurveProblem::Bent> bent = problem_.all_bent(ended_.unknowns);
+    const CurveModel& model = problem_.model(ended_.unknowns);
     for (std::size_t t = 0; t < samples_.size(); ++t) {
-      if (bent[t].depth_m > 0.5 * fit.depth_m) continue;
+      if (model.depth_m[t] > 0.5 * fit.depth_m) continue;
       shallow.push_back(samples_[t]);
-      if (bent[t].touches) ++pushed;
+      if (model.touch[t] != 0) ++pushed;
     }
     constexpr std::size_t kFewestPushed = 10;
     if (pushed < kFewestPushed || shallow.size() < 2 * kFewest) return;

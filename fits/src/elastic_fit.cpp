@@ -53,23 +53,63 @@ double force_range_n(std::span<const Sample> samples) {
   return high->force_n - low->force_n;
 }
 
+// Those of the analysis and three more; of some close to each other the first, since all lead to one minimum.
+std::vector<double> starts_between(double low_m, double high_m, const std::vector<double>& given) {
+  constexpr double kSame = 1.0 / 40.0;  // share of the way
+  std::vector<double> starts;
+  starts.reserve(given.size() + 3);
+  const auto add = [&](double start) {
+    const auto same = [&](double other) { return std::abs(other - start) < kSame * (high_m - low_m); };
+    if (std::none_of(starts.begin(), starts.end(), same)) starts.push_back(start);
+  };
+  for (const double start : given) add(start);
+  for (const double share : {0.25, 0.5, 0.75}) add(std::lerp(low_m, high_m, share));
+  return starts;
+}
+
+// Neighbours differ as those of white noise do, by twice their squares (von Neumann 1941): no curve is left in them.
+bool are_random(const std::vector<double>& residuals) {
+  constexpr double kLeast = 1.5;
+  double squares = 0.0, differences = 0.0;
+  for (std::size_t t = 1; t < residuals.size(); ++t) {
+    squares += residuals[t] * residuals[t];
+    differences += (residuals[t] - residuals[t - 1]) * (residuals[t] - residuals[t - 1]);
+  }
+  return differences > kLeast * squares;
+}
+
 std::optional<Unknowns> best_start(std::span<const Sample> samples, const FitSetup& setup) {
   const std::vector<Sample> few = thinned(samples);
   const CurveProblem problem(few, setup);
   const auto [low_m, high_m] = heights_of(few);
-  std::vector<double> starts(setup.starts);
-  for (const double share : {0.25, 0.5, 0.75}) starts.push_back(std::lerp(low_m, high_m, share));
-  std::optional<Unknowns> best;
-  double least = std::numeric_limits<double>::infinity();
+  const std::vector<double> starts = starts_between(low_m, high_m, setup.starts);
+  struct Start {
+    double squares;
+    Unknowns unknowns;
+  };
+  std::vector<Start> tried;
+  tried.reserve(starts.size());
   for (const double start : starts) {
     auto unknowns = problem.start_at(start);
     if (!unknowns) continue;
+    const double squares = problem.gram(*unknowns, {}).squares();
+    tried.push_back({std::isfinite(squares) ? squares : std::numeric_limits<double>::max(), std::move(*unknowns)});
+  }
+  std::sort(tried.begin(), tried.end(), [](const Start& a, const Start& b) { return a.squares < b.squares; });
+  std::optional<Unknowns> best;
+  double least = std::numeric_limits<double>::infinity();
+  bool is_noise = false;
+  for (Start& start : tried) {
+    // one that begins far above noise will not end below it
+    constexpr double kFarAbove = 10.0;
+    if (is_noise && start.squares > kFarAbove * least) break;
     // the fit to all samples goes on from there
-    constexpr double kRough = 1e-6;
-    const double squares = problem.minimise(*unknowns, {}, {}, kRough);
-    if (!is_usable(*unknowns, squares) || !(squares < least)) continue;
+    constexpr double kRough = 1e-4;
+    const double squares = problem.minimise(start.unknowns, {}, {}, kRough);
+    if (!is_usable(start.unknowns, squares) || !(squares < least)) continue;
     least = squares;
-    best = unknowns;
+    best = std::move(start.unknowns);
+    is_noise = are_random(problem.residuals(*best));
   }
   return best;
 }
@@ -177,14 +217,14 @@ std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::s
 
 // Depths, forces and residuals at the minimum.
 void describe(std::span<const Sample> samples, const CurveProblem& problem, const Ended& ended, ElasticFit& fit) {
-  std::vector<double> residuals = problem.residuals(ended.unknowns);
+  const CurveModel& model = problem.model(ended.unknowns);
+  std::vector<double> residuals(model.residual_n);
   double before_contact = 0.0;
-  const std::vector<CurveProblem::Bent> bent = problem.all_bent(ended.unknowns);
   fit.model_n.reserve(residuals.size());
   for (std::size_t t = 0; t < residuals.size(); ++t) {
-    fit.depth_m = std::max(fit.depth_m, bent[t].depth_m);
+    fit.depth_m = std::max(fit.depth_m, model.depth_m[t]);
     fit.model_n.push_back(samples[t].force_n + residuals[t]);
-    if (bent[t].touches) {
+    if (model.touch[t] != 0) {
       ++fit.in_contact;
     } else {
       before_contact += residuals[t] * residuals[t];
@@ -198,9 +238,7 @@ void describe(std::span<const Sample> samples, const CurveProblem& problem, cons
   fit.noise = ended.noise;
   const std::size_t left = whiten(ended.noise, residuals);
   // of a law of adhesion free points of the retract come last, too
-  const auto touching = std::find_if(bent.begin(), bent.end(), [](const auto& each) { return each.touches; });
-  const auto before = static_cast<std::size_t>(touching - bent.begin());
-  fit.runs_p = runs_probability(std::span(residuals).first(left), std::min(before, left));
+  fit.runs_p = runs_probability(std::span(residuals).first(left), std::min(model.first_touch, left));
 }
 
 Adhesion adhesion_of(const Minimum& best, const CurveProblem& problem, const FitSetup& setup) {

@@ -203,6 +203,31 @@ Push push_of(const Indenter& indenter, double depth_m) noexcept {
   return {};
 }
 
+std::optional<PowerLaw> power_law_of(const Indenter& indenter) noexcept {
+  constexpr double kUnitDepth = 1.0;
+  switch (indenter.shape) {
+    case Shape::Paraboloid:
+    case Shape::Dmt:
+    case Shape::Jkr:
+    case Shape::Maugis:
+    case Shape::Auto:
+      return PowerLaw{false, push_of(indenter, kUnitDepth).force};
+    case Shape::Cone:
+    case Shape::Pyramid3:
+    case Shape::Pyramid4Bilodeau:
+    case Shape::Pyramid4Rico:
+      return PowerLaw{true, push_of(indenter, kUnitDepth).force};
+    case Shape::Sphere:
+    case Shape::LayerSphere:
+    case Shape::LayerCone:
+    case Shape::LayerExactSphere:
+    case Shape::LayerExactCone:
+    case Shape::LayerDimitriadis:
+      break;
+  }
+  return std::nullopt;
+}
+
 double layer_strain(const Indenter& indenter, double depth_m) noexcept {
   constexpr double kMostSphere = 0.5, kMostCone = 0.9;
   const ShapeRow& row = row_of(indenter.shape);

@@ -15,7 +15,7 @@ namespace afm::fits {
 using Residuals =
     std::function<void(std::span<const double> parameters, std::span<double> residuals, std::span<double> jacobian)>;
 
-inline constexpr double kWholeReduction = 1e-12;
+inline constexpr double kWholeReduction = 1e-10;
 double least_squares(const Residuals& evaluate, std::size_t residual_count, std::vector<double>& parameters,
                      double reduction = kWholeReduction);
 

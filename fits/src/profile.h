@@ -27,8 +27,7 @@ bool is_usable(const Unknowns& unknowns, double squares);
 double deviation_of(std::size_t unknown, const CurveProblem& problem, const Ended& ended);
 
 // End of the interval of an unknown on one side: where the likelihood, maximised over the other unknowns, has fallen by
-// half the 95 % quantile of chi square. The root of the fall is nearly linear in the way, and is stepped to along that
-// line, once there is an end on either side between them.
+// half the 95 % quantile of chi square.
 struct ProfileEnd {
   double value = 0;               // infinite if no end was found
   std::optional<Unknowns> lower;  // a better minimum that was met on the way

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "fits/indenter.h"
+#include "lanes.h"
 
 namespace afm::fits {
 
@@ -13,5 +16,26 @@ struct InSeries {
 
 // `way_m`, positive, is the way of the base beyond the contact point; `near_m` a depth from which the search begins.
 InSeries in_series(const Indenter& indenter, double modulus_pa, double spring_n_per_m, double way_m, double near_m);
+
+// The same at many ways of one contact, two at once where the force is a power of the depth.
+class PressedLever {
+ public:
+  PressedLever(const Indenter& indenter, double modulus_pa, double spring_n_per_m);
+
+  struct Pressed {
+    Two depth_m{}, force_n{};
+    Two slope_n_per_m{};  // contact alone, without the lever
+  };
+  // Ways as above. `root`: roots of the depths from which the search begins, positive; changed to those of its end.
+  Pressed at(const Two& way_m, Two& root) const;
+
+ private:
+  Pressed blunt_at(const Two& way_m, Two& root) const;
+  Pressed sharp_at(const Two& way_m) const;
+
+  const Indenter& indenter_;
+  std::optional<PowerLaw> power_;
+  double modulus_pa_, spring_n_per_m_;
+};
 
 }  // namespace afm::fits

@@ -142,6 +142,33 @@ TEST(CurveSeries, OfACutFileIsRefusedInOneLine) {
   }
 }
 
+// The headers lie farther behind than the archive says.
+TEST(CurveSeries, OfAnArchiveBehindOtherBytesIsRead) {
+  const support::ScratchFolder folder;
+  const std::string before = std::string("PK\x03\x04") + std::string(100, ' ');
+  const std::string path = folder.write("a.jpk-force-map", before + test::stored_zip(test::jpk_map(risen)));
+  const Read all = read_part(path, 6, {0, 1});
+  ASSERT_EQ(all.curves.size(), 6U);
+  for (const auto& curve : all.curves) EXPECT_TRUE(curve) << curve.error().message;
+}
+
+// Half an archive, whose headers say more than there is.
+TEST(CurveSeries, OfHeadersThatLieIsRefusedOrRead) {
+  const support::ScratchFolder folder;
+  const std::string bytes = test::stored_zip(test::jpk_map(risen));
+  const std::size_t first = bytes.find("PK\x01\x02");
+  ASSERT_NE(first, std::string::npos);
+  for (const std::size_t number : {28U, 30U, 32U}) {
+    std::string lying(bytes);
+    lying[first + number] = '\xff';
+    lying[first + number + 1] = '\xff';
+    const std::string path = folder.write("lying.jpk-force-map", lying);
+    const auto count = curve_count(path);
+    if (count) continue;
+    EXPECT_EQ(count.error().category, core::ErrorCategory::BadInputFile) << number;
+  }
+}
+
 TEST(CurveSeries, OfOneCurveIsThatCurve) {
   const support::ScratchFolder folder;
   for (const auto& [name, format] : {std::pair{"a.tab", CurveFormat::Tab}, std::pair{"a.h5", CurveFormat::Hdf5}}) {

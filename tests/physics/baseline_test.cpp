@@ -98,4 +98,38 @@ TEST(ChosenBaseline, RefusesARangeWithoutPoints) {
   EXPECT_NO_THROW(analysed({}, {.shape = BaselineShape::Tilted, .range = WayRange{Length(0.0), Length(0.5e-6)}}));
 }
 
+// The median is that of the sorted forces, in whichever order they come: rising, falling, as a roof, in a few digits,
+// all the same, or at random.
+TEST(ChosenBaseline, HasTheMedianOfForcesInAnyOrder) {
+  constexpr int kCount = 3001;
+  std::mt19937_64 random(11);
+  std::uniform_int_distribution<int> digits(0, 4);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  std::vector<std::vector<double>> orders(6);
+  for (int i = 0; i < kCount; ++i) {
+    orders[0].push_back(i);
+    orders[1].push_back(-i);
+    orders[2].push_back(std::min(i, kCount - i));
+    orders[3].push_back(digits(random));
+    orders[4].push_back(7.0);
+    orders[5].push_back(any(random));
+  }
+  for (const int left_out : {0, 1}) {
+    for (std::size_t order = 0; order < orders.size(); ++order) {
+      std::vector<double> forces(orders[order]);
+      forces.resize(static_cast<std::size_t>(kCount - left_out));
+      std::vector<CurvePoint> points;
+      for (std::size_t i = 0; i < forces.size(); ++i) {
+        points.push_back({Length(-1e-9 * static_cast<double>(i)), Force(forces[i]), Branch::Approach});
+      }
+      const BaselineChoice flat{.shape = BaselineShape::Flat, .range = WayRange{Length(0.0), Length(1e-3)}};
+      const Baseline found = analyse(points, ForceZero::Instrument, std::nullopt, flat).baseline;
+      std::sort(forces.begin(), forces.end());
+      const std::size_t middle = forces.size() / 2;
+      const double median = forces.size() % 2 == 1 ? forces[middle] : 0.5 * (forces[middle] + forces[middle - 1]);
+      EXPECT_EQ(found.level.si, median) << order << ", " << forces.size();
+    }
+  }
+}
+
 }  // namespace baseline_test

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
@@ -97,6 +98,49 @@ TEST(ContactPoint, IsDoubtfulWhereTheMethodsDisagree) {
   const CurveFeatures found = analyse(points);
   ASSERT_TRUE(found.contact_point);
   EXPECT_TRUE(found.contact_doubtful);
+}
+
+// An analysis finds them all together, from profiles that they share.
+TEST(ContactPoint, OfAnAnalysisIsThatOfEachMethodAlone) {
+  std::mt19937_64 random(7);
+  const auto points = hertz_approach([&](double) { return noise_n(random); });
+  const CurveFeatures found = analyse(points, ForceZero::True);
+  for (std::size_t i = 0; i < kContactMethods.size(); ++i) {
+    const auto alone = contact_point(points, kContactMethods[i].method);
+    ASSERT_TRUE(alone && found.contact_estimates[i]) << kContactMethods[i].name;
+    EXPECT_EQ(found.contact_estimates[i]->si, alone->si) << kContactMethods[i].name;
+  }
+}
+
+// Points that fall, as recorded, are only turned around; all others are sorted.
+TEST(ContactPoint, DoesNotDependOnTheOrderOfThePoints) {
+  std::mt19937_64 random(9);
+  const auto falling = hertz_approach([&](double) { return noise_n(random); });
+  std::vector<CurvePoint> rising(falling.rbegin(), falling.rend()), shuffled(falling);
+  std::shuffle(shuffled.begin(), shuffled.end(), random);
+  for (const ContactMethodName& each : kContactMethods) {
+    if (each.method == ContactMethod::ZeroForce) continue;  // goes along the recording
+    const auto as_recorded = contact_point(falling, each.method);
+    ASSERT_TRUE(as_recorded) << each.name;
+    for (const auto& other : {rising, shuffled}) {
+      EXPECT_NEAR(contact_point(other, each.method)->si, as_recorded->si, 1e-15) << each.name;
+    }
+  }
+}
+
+// From a sample that gives way far more than the lever to one that hardly does.
+TEST(ContactPoint, OfAnyShareOfTheLeverIsFound) {
+  for (const double softer : {0.01, 0.1, 1.0, 10.0, 100.0}) {
+    std::vector<CurvePoint> points;
+    for (int i = 0; i <= 400; ++i) {
+      const double depth = (i - 200) / 200.0;  // tip only, as a share of the largest
+      const double force = depth > 0.0 ? std::pow(depth, 1.5) : 0.0;
+      points.push_back({Length(-1e-6 * (depth + softer * force)), Force(1e-9 * force), Branch::Approach});
+    }
+    const auto found = contact_point(points, ContactMethod::FitPolynomial);
+    ASSERT_TRUE(found) << softer;
+    EXPECT_NEAR(found->si / (1e-6 * (1.0 + softer)), 0.0, 0.02) << softer;
+  }
 }
 
 TEST(ContactPoint, HasAMethodForEachName) {

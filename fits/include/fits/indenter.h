@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 #include "fits/layer.h"
@@ -65,6 +66,15 @@ struct Push {
 
 // Push at a depth in metres; zero above the sample. A law of adhesion counts as its paraboloid, without adhesion.
 Push push_of(const Indenter& indenter, double depth_m) noexcept;
+
+// Force of a tip of one power: coefficient E* d^1.5 of a blunt one, coefficient E* d^2 of a sharp one.
+struct PowerLaw {
+  bool is_sharp = false;
+  double coefficient = 0;
+};
+
+// Empty for a sphere and for layers; a law of adhesion counts as its paraboloid.
+std::optional<PowerLaw> power_law_of(const Indenter& indenter) noexcept;
 
 // Strain of the layer over the largest at which the shape's formula is within 1 % of the exact layer (lab cases P09 to
 // P20): sqrt(R d)/h over 0.5, or d tan(alpha)/h over 0.9; for an exact layer, over the largest strain in its table. 0

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,9 @@ namespace afm::physics {
 namespace {
 
 enum class Indenter { Sphere, Cone };
+
+// Two numbers that a processor adds or multiplies at once.
+using Two = double __attribute__((vector_size(2 * sizeof(double))));
 
 // Force as a share of that at the deepest point, by depth as a share of the deepest one: the inverse of
 // x = (1 - s) g^(1/p) + s g, where s is the lever's share of the depth at the deepest point.
@@ -48,8 +53,11 @@ class ForceShape {
     return {node, place - static_cast<double>(node)};
   }
   double at(const Place& place) const {
-    return force_[place.node] + place.behind * (force_[place.node + 1] - force_[place.node]);
+    return nodes()[place.node] + place.behind * (nodes()[place.node + 1] - nodes()[place.node]);
   }
+
+  // Forces at the nodes, for a loop without checks.
+  const double* nodes() const { return force_.data(); }
 
   // 0 outside the contact.
   double at(double depth) const { return depth <= 0.0 ? 0.0 : at(place_of(depth)); }
@@ -61,7 +69,7 @@ class ForceShape {
 };
 
 // The shapes for evenly spaced shares of the lever, 1 MB for both indenters, made once in some milliseconds: a search
-// at a hundred places tries 2000 shares.
+// tries hundreds of shares.
 class ForceShapes {
  public:
   static const ForceShapes& of(Indenter indenter) {
@@ -99,80 +107,111 @@ class Misfit {
     double middle = 0.0, square = 0.0;
     for (const double z : profile.z) middle += z / count;
     for (const double z : profile.z) square += (z - middle) * (z - middle);
-    for (const double z : profile.z) lines_.push_back({1.0 / std::sqrt(count), (z - middle) / std::sqrt(square)});
+    level_ = 1.0 / std::sqrt(count);
+    tilt_.reserve(profile.z.size());
+    for (const double z : profile.z) tilt_.push_back((z - middle) / std::sqrt(square));
     take_lines(rest_);
     for (const double rest : rest_) squares_ += rest * rest;
+    inner_rest_.assign(rest_.rbegin(), rest_.rend());
+    inner_tilt_.assign(tilt_.rbegin(), tilt_.rend());
   }
 
   double squares() const { return squares_; }
 
   // The points that touch, from the deepest one, if the contact is there.
-  std::vector<ForceShape::Place> places_below(double contact) const {
-    const double depth = contact - profile_.z.back();
-    std::vector<ForceShape::Place> places;
-    places.reserve(profile_.z.size());
-    for (std::size_t end = profile_.z.size(); end > 0 && profile_.z[end - 1] < contact; --end) {
-      places.push_back(ForceShape::place_of((contact - profile_.z[end - 1]) / depth));
+  struct Places {
+    std::vector<std::size_t> node;
+    std::vector<double> behind;
+  };
+  void find_places(double contact, Places& places) const {
+    const auto outside = std::find_if(profile_.z.rbegin(), profile_.z.rend(), [&](double z) { return !(z < contact); });
+    const auto count = static_cast<std::size_t>(outside - profile_.z.rbegin());
+    places.node.resize(count);
+    places.behind.resize(count);
+    const double per_depth = 1.0 / (contact - profile_.z.back());
+    const double* z = profile_.z.data() + profile_.z.size();
+    std::size_t* node = places.node.data();
+    for (double& behind : places.behind) {
+      const ForceShape::Place place = ForceShape::place_of((contact - *--z) * per_depth);
+      *node++ = place.node;
+      behind = place.behind;
     }
-    return places;
   }
 
-  double taken_by(const ForceShape& shape, const std::vector<ForceShape::Place>& places) const {
-    double squares = 0.0, with_force = 0.0, with_level = 0.0, with_tilt = 0.0;
-    std::size_t i = profile_.z.size();
-    for (const ForceShape::Place& place : places) {
-      --i;
-      const double force = shape.at(place);
+  // Two points at once.
+  double taken_by(const ForceShape& shape, const Places& places) const {
+    const double* const nodes = shape.nodes();
+    const std::size_t* const node = places.node.data();
+    const std::size_t count = places.node.size();
+    Two sum{}, squares{}, with_force{}, with_tilt{};
+    const auto add = [&](const Two& force, const Two& rest, const Two& tilt) {
+      sum += force;
       squares += force * force;
-      with_force += force * rest_[i];
-      with_level += force * lines_[i][0];
-      with_tilt += force * lines_[i][1];
+      with_force += force * rest;
+      with_tilt += force * tilt;
+    };
+    const auto two_at = [](const std::vector<double>& values, std::size_t i) {
+      const double* const here = values.data() + i;
+      return Two{here[0], here[1]};
+    };
+    std::size_t i = 0;
+    for (; i + 2 <= count; i += 2) {
+      const double* const one = nodes + node[i];
+      const double* const other = nodes + node[i + 1];
+      const Two near{one[0], other[0]}, far{one[1], other[1]};
+      add(near + two_at(places.behind, i) * (far - near), two_at(inner_rest_, i), two_at(inner_tilt_, i));
     }
-    const double own = squares - with_level * with_level - with_tilt * with_tilt;
+    if (i < count) {
+      add(Two{shape.at({node[i], places.behind[i]}), 0.0}, Two{inner_rest_[i], 0.0}, Two{inner_tilt_[i], 0.0});
+    }
+    const auto both = [](const Two& two) { return two[0] + two[1]; };
+    const double with_level = both(sum) * level_, all = both(squares), push = both(with_force);
+    const double own = all - with_level * with_level - both(with_tilt) * both(with_tilt);
     // a push, whose shape is not that of a line
-    return with_force > 0.0 && own > 1e-9 * squares ? with_force * with_force / own : 0.0;
+    return push > 0.0 && own > 1e-9 * all ? push * push / own : 0.0;
   }
 
-  // The best share of the lever, by golden-section search.
-  PlaceFit best_at(double contact, Indenter indenter) const {
-    constexpr double kGolden = 0.618033988749895;
-    constexpr int kSections = 13;  // to less than one of the shares
+  // The best share of the lever: climbed to in steps, at last along a parabola. `near`: that of a neighbouring place,
+  // if there is one, which is close to it; where it takes less than `hopeless`, it is taken as the best. `places` is
+  // room to work in.
+  PlaceFit best_at(double contact, Indenter indenter, std::optional<double> near, double hopeless,
+                   Places& places) const {
+    constexpr int kShares = ForceShapes::kShares, kFine = 8, kFiner = 4, kCoarse = kFine * kFiner * kFiner;
     PlaceFit best{-1.0, contact, 0.0, indenter};
     const ForceShapes& shapes = ForceShapes::of(indenter);
-    const std::vector<ForceShape::Place> places = places_below(contact);
-    std::array<double, kSections + 4> known{};  // values of the shares that were tried
-    std::array<std::size_t, kSections + 4> tried{};
-    std::size_t count = 0;
-    const auto taken = [&](double share) {
-      const auto node = static_cast<std::size_t>(std::lround(share * ForceShapes::kShares));
-      for (std::size_t i = 0; i < count; ++i) {
-        if (tried[i] == node) return known[i];
-      }
-      const double value = taken_by(shapes.at(node), places);
-      tried[count] = node;
-      known[count++] = value;
+    find_places(contact, places);
+    const auto taken = [&](int node) {
+      const double value = taken_by(shapes.at(static_cast<std::size_t>(node)), places);
       if (value > best.taken) {
         best.taken = value;
-        best.lever_share = static_cast<double>(node) / ForceShapes::kShares;
+        best.lever_share = static_cast<double>(node) / kShares;
       }
       return value;
     };
-    double low = 0.0, high = 1.0, left = 1.0 - kGolden, right = kGolden;
-    taken(low);
-    taken(high);
-    double taken_left = taken(left), taken_right = taken(right);
-    for (int i = 0; i < kSections; ++i) {
-      if (taken_left > taken_right) {
-        high = right;
-        right = std::exchange(left, right - kGolden * (right - low));
-        taken_right = std::exchange(taken_left, taken(left));
-      } else {
-        low = left;
-        left = std::exchange(right, left + kGolden * (high - left));
-        taken_left = std::exchange(taken_right, taken(right));
+    if (near && taken(static_cast<int>(std::lround(*near * kShares))) < hopeless) return best;
+    for (int step = near ? kFine : kCoarse;; step /= kFiner) {
+      const double from = kShares * (best.taken < 0.0 ? 0.5 : best.lever_share);
+      int middle = std::clamp(static_cast<int>(std::lround(from)), step, kShares - step);
+      double below = taken(middle - step), here = taken(middle), above = taken(middle + step);
+      while (above > here && middle + 2 * step <= kShares) {
+        middle += step;
+        below = std::exchange(here, above);
+        above = taken(middle + step);
       }
+      while (below > here && middle - 2 * step >= 0) {
+        middle -= step;
+        above = std::exchange(here, below);
+        below = taken(middle - step);
+      }
+      if (step > kFine) continue;
+      const double bent = below - 2.0 * here + above;
+      if (bent < 0.0) {
+        const double way = std::clamp(0.5 * (below - above) / bent, -1.0, 1.0);
+        const int off = static_cast<int>(std::lround(way * step));
+        if (off % step != 0) taken(middle + off);
+      }
+      return best;
     }
-    return best;
   }
 
   // Number of independent residuals of a fit: of noise their number, of a wave its half periods.
@@ -201,34 +240,53 @@ class Misfit {
 
  private:
   void take_lines(std::vector<double>& values) const {
-    for (std::size_t line = 0; line < 2; ++line) {
-      double part = 0.0;
-      for (std::size_t i = 0; i < values.size(); ++i) part += values[i] * lines_[i][line];
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] -= part * lines_[i][line];
-    }
+    double level = 0.0, tilt = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) level += values[i] * level_;
+    for (double& value : values) value -= level * level_;
+    for (std::size_t i = 0; i < values.size(); ++i) tilt += values[i] * tilt_[i];
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] -= tilt * tilt_[i];
   }
 
   const ApproachProfile& profile_;
   std::vector<double> rest_;
-  std::vector<std::array<double, 2>> lines_;  // level and tilt, orthonormal
+  double level_ = 0.0;                           // value of a constant line
+  std::vector<double> tilt_;                     // a straight line; orthonormal with the constant one
+  std::vector<double> inner_rest_, inner_tilt_;  // the same, from the deepest point
   double squares_ = 0.0;
 };
 
-// Fits at an even grid of places, then at finer ones around the best. Sphere and cone have separate optima.
+// Fits at an even grid of places, then at finer ones around the best. Sphere and cone have separate optima. Of a place
+// that fits much worse than the best the share is that of a neighbour: it is neither the best nor hardly worse.
 std::vector<PlaceFit> fits_at_places(const Misfit& misfit, double low, double high) {
-  constexpr int kPlaces = 64, kFiner = 4, kPasses = 4;
+  constexpr int kPlaces = 64, kFirst = 8, kFiner = 4, kPasses = 4;
+  constexpr double kMuchWorse = 16.0;  // ratio of sums of squares; a range has at most 4
   std::vector<PlaceFit> fits;
+  fits.reserve(2 * (kPlaces + 1 + kPasses * 2 * (kFiner - 1)));
+  double most = 0.0;  // taken by either
+  Misfit::Places places;
   for (const Indenter indenter : {Indenter::Sphere, Indenter::Cone}) {
     PlaceFit best;
-    const auto try_at = [&](double contact) {
-      fits.push_back(misfit.best_at(std::clamp(contact, low, high), indenter));
+    const auto try_at = [&](double contact, const PlaceFit& neighbour) {
+      const auto near = neighbour.taken > 0.0 ? std::optional(neighbour.lever_share) : std::nullopt;
+      const double hopeless = misfit.squares() - kMuchWorse * (misfit.squares() - most);
+      fits.push_back(misfit.best_at(std::clamp(contact, low, high), indenter, near, hopeless, places));
       if (fits.back().taken > best.taken) best = fits.back();
+      most = std::max(most, best.taken);
+      return fits.back();
     };
     double step = (high - low) / kPlaces;
-    for (int i = 0; i <= kPlaces; ++i) try_at(low + i * step);
+    std::array<PlaceFit, kPlaces / kFirst + 1> firsts;
+    for (std::size_t i = 0; i < firsts.size(); ++i)
+      firsts[i] = try_at(low + static_cast<double>(i * kFirst) * step, {});
+    for (std::size_t i = 0; i + 1 < firsts.size(); ++i) {
+      PlaceFit last = firsts[i];
+      for (std::size_t k = 1; k < kFirst; ++k) last = try_at(low + static_cast<double>(i * kFirst + k) * step, last);
+    }
     for (int pass = 0; pass < kPasses; ++pass, step /= kFiner) {
-      const double middle = best.contact;
-      for (int i = -kFiner; i <= kFiner; ++i) try_at(middle + i * step / kFiner);
+      const PlaceFit middle = best;
+      for (int i = 1 - kFiner; i < kFiner; ++i) {
+        if (i != 0) try_at(middle.contact + i * step / kFiner, middle);
+      }
     }
   }
   return fits;
@@ -239,7 +297,7 @@ std::vector<PlaceFit> fits_at_places(const Misfit& misfit, double low, double hi
 ApproachProfile profile_of(std::span<const CurvePoint> approach, std::size_t most_bins) {
   const auto [low, high] =
       std::minmax_element(approach.begin(), approach.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
-  std::vector<CurveBin> bins = curve_bins(approach, low->z, high->z, most_bins, 1);
+  const std::vector<MeanBin> bins = mean_bins(approach, low->z, high->z, most_bins);
   const auto greatest =
       std::max_element(bins.begin(), bins.end(), [](const auto& a, const auto& b) { return a.mean < b.mean; });
   ApproachProfile profile;

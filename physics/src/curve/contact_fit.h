@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "physics/contact_point.h"
 #include "physics/curve_point.h"
 
 namespace afm::physics {
@@ -26,6 +28,9 @@ struct ContactFit {
   bool doubtful = false;
 };
 
+// By a method that needs the profile alone, neither ZeroForce nor FitPolynomial. Empty if it finds none.
+std::optional<double> contact_on(const ApproachProfile& profile, ContactMethod method);
+
 inline constexpr std::size_t kFewestFitBins = 5;
 inline constexpr std::size_t kMostFitBins = 256;
 
@@ -38,7 +43,7 @@ inline constexpr std::size_t kMostFitBins = 256;
 // - lacks_baseline: less than 0.18 of the way is outside the contact.
 // - doubtful: so it does, or these places are apart by more than 0.17 of the pushed depth and three bins.
 //
-// For a profile of kFewestFitBins to kMostFitBins with a push. Takes some milliseconds.
+// For a profile of kFewestFitBins to kMostFitBins with a push. Takes some 0.1 ms.
 ContactFit fit_contact(const ApproachProfile& profile);
 
 }  // namespace afm::physics

@@ -32,6 +32,34 @@ std::optional<double> by_deviation(const ApproachProfile& profile) {
   return crossing(profile, i - 1, level);
 }
 
+// Sums over the bins that touch, for contact points that move outwards.
+class Touching {
+ public:
+  explicit Touching(const ApproachProfile& profile) : profile_(profile), end_(profile.z.size()) {}
+
+  struct Sums {
+    double squares, with_force;  // sums of depth squared, and depth times force
+  };
+  Sums below(double contact) {
+    const double deepest = profile_.z.back();
+    for (; end_ > 0 && profile_.z[end_ - 1] < contact; --end_) {
+      const double z = profile_.z[end_ - 1] - deepest, force = profile_.force[end_ - 1];
+      count_ += 1.0;
+      z_ += z;
+      zz_ += z * z;
+      force_ += force;
+      zf_ += z * force;
+    }
+    const double way = contact - deepest;
+    return {way * (count_ * way - 2.0 * z_) + zz_, way * force_ - zf_};
+  }
+
+ private:
+  const ApproachProfile& profile_;
+  std::size_t end_;
+  double count_ = 0, z_ = 0, zz_ = 0, force_ = 0, zf_ = 0;
+};
+
 // The kink of zero and a straight line: an even grid, then a finer one around its best place.
 double by_line(const ApproachProfile& profile) {
   constexpr int kPlaces = 256;
@@ -39,15 +67,10 @@ double by_line(const ApproachProfile& profile) {
   for (int pass = 0; pass < 2; ++pass) {
     const double step = (high - low) / kPlaces;
     double most = -1.0;
+    Touching touching(profile);
     for (int i = 1; i < kPlaces; ++i) {
       const double contact = low + i * step;
-      double squares = 0.0, with_force = 0.0;
-      for (std::size_t end = profile.z.size(); end > 0 && profile.z[end - 1] < contact; --end) {
-        const std::size_t k = end - 1;
-        const double depth = contact - profile.z[k];
-        squares += depth * depth;
-        with_force += depth * profile.force[k];
-      }
+      const auto [squares, with_force] = touching.below(contact);
       // reduction of the sum of squares
       const double taken = with_force > 0.0 && squares > 0.0 ? with_force * with_force / squares : 0.0;
       if (taken > most) {
@@ -104,6 +127,14 @@ std::optional<double> by_gradient(const ApproachProfile& profile) {
   return profile.z[std::min(count - 1, i + reach)];
 }
 
+// Without a branch: the greatest and the least of four are not the median of five.
+double median_of(const std::array<double, 5>& five) {
+  const auto [a, b, c, d, e] = five;
+  const double inner_low = std::max(std::min(a, b), std::min(c, d)),
+               inner_high = std::min(std::max(a, b), std::max(c, d));
+  return std::max(std::min(inner_low, inner_high), std::min(std::max(inner_low, inner_high), e));
+}
+
 // Each force replaced by the median of itself and its two neighbours on either side.
 std::vector<double> smoothed_forces(std::span<const CurvePoint> points) {
   std::vector<double> result;
@@ -112,6 +143,10 @@ std::vector<double> smoothed_forces(std::span<const CurvePoint> points) {
     std::array<double, 5> window{};
     const std::size_t first = i < 2 ? 0 : i - 2, last = std::min(points.size(), i + 3);
     for (std::size_t k = first; k < last; ++k) window[k - first] = points[k].force.si;
+    if (last - first == window.size()) {
+      result.push_back(median_of(window));
+      continue;
+    }
     const auto end = window.begin() + static_cast<std::ptrdiff_t>(last - first);
     const auto middle = window.begin() + static_cast<std::ptrdiff_t>((last - first) / 2);
     std::nth_element(window.begin(), middle, end);
@@ -132,7 +167,10 @@ std::optional<double> by_zero_force(std::span<const CurvePoint> approach) {
   return std::nullopt;
 }
 
-std::optional<double> on_profile(const ApproachProfile& profile, ContactMethod method) {
+}  // namespace
+
+std::optional<double> contact_on(const ApproachProfile& profile, ContactMethod method) {
+  if (profile.z.size() < kFewestFitBins) return std::nullopt;
   switch (method) {
     case ContactMethod::Deviation:
       return by_deviation(profile);
@@ -149,8 +187,6 @@ std::optional<double> on_profile(const ApproachProfile& profile, ContactMethod m
   return std::nullopt;
 }
 
-}  // namespace
-
 std::string_view name_of(ContactMethod method) {
   return std::find_if(kContactMethods.begin(), kContactMethods.end(),
                       [&](const auto& each) { return each.method == method; })
@@ -165,8 +201,8 @@ std::optional<Length> contact_point(std::span<const CurvePoint> approach, Contac
   } else if (method == ContactMethod::FitPolynomial) {
     const ApproachProfile profile = profile_of(approach, kMostFitBins);
     if (profile.z.size() >= kFewestFitBins) z = fit_contact(profile).contact;
-  } else if (const ApproachProfile profile = profile_of(approach); profile.z.size() >= 5) {
-    z = on_profile(profile, method);
+  } else {
+    z = contact_on(profile_of(approach), method);
   }
   return z ? std::optional(Length(*z)) : std::nullopt;
 }

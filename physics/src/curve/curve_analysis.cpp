@@ -113,12 +113,15 @@ std::optional<ContactFit> estimate_contact(std::span<const CurvePoint> approach,
                                            CurveFeatures& features) {
   std::optional<ContactFit> fit;
   if (profile.z.size() >= kFewestFitBins) fit = fit_contact(profile);
+  const ApproachProfile fine = profile_of(approach);
   for (std::size_t i = 0; i < kContactMethods.size(); ++i) {
     const ContactMethod method = kContactMethods[i].method;
-    if (method != ContactMethod::FitPolynomial) {
+    if (method == ContactMethod::ZeroForce) {
       features.contact_estimates[i] = contact_point(approach, method);
-    } else if (fit) {
-      features.contact_estimates[i] = Length(fit->contact);
+    } else if (method == ContactMethod::FitPolynomial) {
+      if (fit) features.contact_estimates[i] = Length(fit->contact);
+    } else if (const auto z = contact_on(fine, method)) {
+      features.contact_estimates[i] = Length(*z);
     }
   }
   return fit;

@@ -26,36 +26,82 @@ inline Force middle_half(std::span<const double> values) {
   return Force(sum / static_cast<double>(values.size() - 2 * left_out));
 }
 
-// The points between `bottom` and `top`, of either branch, in bins of equal width along rising Z, without empty ones.
-// At most `most_bins`, and few enough for `fewest_samples` in each on average. Heights out of order, as from a sensor,
-// are put into the right bin.
-inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Length bottom, Length top,
-                                        std::size_t most_bins, std::size_t fewest_samples) {
+// Along rising Z; heights out of order, as from a sensor, come into order.
+inline void put_in_order(std::vector<CurvePoint>& points) {
+  const auto is_lower = [](const CurvePoint& a, const CurvePoint& b) { return a.z < b.z; };
+  // most approaches are recorded from above
+  const auto kept =
+      std::adjacent_find(points.begin(), points.end(), [](const auto& a, const auto& b) { return !(b.z < a.z); });
+  if (kept == points.end()) {
+    std::reverse(points.begin(), points.end());
+  } else if (!std::is_sorted(points.begin(), points.end(), is_lower)) {
+    std::stable_sort(points.begin(), points.end(), is_lower);
+  }
+}
+
+// Calls back with the points of each bin, in the order of rising Z, of those between `bottom` and `top`, of either
+// branch: bins of equal width, at most `most_bins`, and few enough for `fewest_samples` in each on average; none is
+// empty.
+template <class OnBin>
+void for_each_bin(std::span<const CurvePoint> points, Length bottom, Length top, std::size_t most_bins,
+                  std::size_t fewest_samples, const OnBin& on_bin) {
   std::vector<CurvePoint> rising;
+  rising.reserve(points.size());
   for (const CurvePoint& point : points) {
     if (point.z >= bottom && point.z <= top) rising.push_back(point);
   }
-  std::stable_sort(rising.begin(), rising.end(), [](const auto& a, const auto& b) { return a.z < b.z; });
+  put_in_order(rising);
   const std::size_t bins = std::clamp<std::size_t>(rising.size() / fewest_samples, 1, most_bins);
   const auto bin_of = [&](const CurvePoint& point) {
     const double place =
         top > bottom ? (point.z - bottom) / (top - bottom) : 0.0;  // flat if all points have one height
     return std::min(bins - 1, static_cast<std::size_t>(place * static_cast<double>(bins)));
   };
+  for (std::size_t first = 0, last = 0; first < rising.size(); first = last) {
+    const std::size_t bin = bin_of(rising[first]);
+    while (last < rising.size() && bin_of(rising[last]) == bin) ++last;
+    on_bin(std::span(rising).subspan(first, last - first));
+  }
+}
+
+// Mean of a bin.
+struct MeanBin {
+  Length z;
+  Force mean;
+};
+
+inline MeanBin mean_of(std::span<const CurvePoint> points) {
+  MeanBin sum;
+  for (const CurvePoint& point : points) {
+    sum.z = sum.z + point.z;
+    sum.mean = sum.mean + point.force;
+  }
+  const auto count = static_cast<double>(points.size());
+  return {sum.z / count, sum.mean / count};
+}
+
+// Bins as above, of at least one sample.
+inline std::vector<MeanBin> mean_bins(std::span<const CurvePoint> points, Length bottom, Length top,
+                                      std::size_t most_bins) {
+  std::vector<MeanBin> result;
+  result.reserve(std::min(points.size(), most_bins));
+  for_each_bin(points, bottom, top, most_bins, 1,
+               [&](std::span<const CurvePoint> bin) { result.push_back(mean_of(bin)); });
+  return result;
+}
+
+// Bins as above, with their medians.
+inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Length bottom, Length top,
+                                        std::size_t most_bins, std::size_t fewest_samples) {
   std::vector<CurveBin> result;
   std::vector<double> forces;
-  for (std::size_t first = 0, last = 0; first < rising.size(); first = last) {
+  for_each_bin(points, bottom, top, most_bins, fewest_samples, [&](std::span<const CurvePoint> bin) {
     forces.clear();
-    CurveBin bin;
-    for (; last < rising.size() && bin_of(rising[last]) == bin_of(rising[first]); ++last) {
-      forces.push_back(rising[last].force.si);
-      bin.z = bin.z + rising[last].z;
-      bin.mean = bin.mean + rising[last].force;
-    }
-    const auto count = static_cast<double>(forces.size());
+    for (const CurvePoint& point : bin) forces.push_back(point.force.si);
     std::sort(forces.begin(), forces.end());
-    result.push_back({bin.z / count, bin.mean / count, Force(forces[forces.size() / 2]), middle_half(forces)});
-  }
+    const MeanBin mean = mean_of(bin);
+    result.push_back({mean.z, mean.mean, Force(forces[forces.size() / 2]), middle_half(forces)});
+  });
   return result;
 }
 
