@@ -349,20 +349,27 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
 }
 
 std::vector<RestingTap> AveragedFlow::resting_at(Length z, Roots roots) {
-  constexpr double kAtRest = 0.02;      // imbalance of a root
-  constexpr double kSame = 1e-9;        // share of the amplitude by which two roots differ
-  constexpr double kSameListed = 1e-5;  // the same, of two roots that are both stable or both not
+  constexpr double kAtRest = 0.02;                         // imbalance of a root
+  constexpr double kSame = 1e-9;                           // share of the amplitude by which two roots differ
+  constexpr double kSameListed = 2e-3, kSamePhase = 0.01;  // share and rad by which two listed stable roots differ
   const std::vector<Sample> samples = samples_at(z.si, roots);
   const auto differ = [](const Sample& a, const Sample& b) { return (a.imbalance < 0.0) != (b.imbalance < 0.0); };
   std::vector<RestingTap> taps;
   // a change of sign where the shape of the swing is lost is no state, but one at the step of a latch is
   const bool latches = surface_->release_height() != surface_->contact_height();
-  const double least_apart = roots == Roots::Slow ? kSame : kSameListed;
+  // a swing that is found again from a lowest height deep in the sample, without the shape that it has
+  const auto found_again = [&](const RestingTap& tap) {
+    return roots == Roots::Quick && std::any_of(taps.begin(), taps.end(), [&](const RestingTap& other) {
+             return other.stable && tap.stable &&
+                    abs(other.state.amplitude - tap.state.amplitude) < kSameListed * tap.state.amplitude &&
+                    std::abs(other.state.phase - tap.state.phase) < kSamePhase;
+           });
+  };
   const auto add_between = [&](const Sample& one, const Sample& other) {
     const RestingTap tap = root_between(one, other, z.si);
     const bool again =
-        !taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) <
-                             (taps.back().stable == tap.stable ? least_apart : kSame) * tap.state.amplitude;
+        (!taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) < kSame * tap.state.amplitude) ||
+        found_again(tap);
     if (!again && (latches || std::abs(imbalance(tap.state.amplitude.si, z.si)) < kAtRest)) taps.push_back(tap);
   };
   for (std::size_t i = 1; i < samples.size(); ++i) {

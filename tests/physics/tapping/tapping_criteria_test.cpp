@@ -76,6 +76,7 @@ struct RestCase {
   std::size_t elsewhere = 0;  // number of states that direct integration leaves
   struct Pair {
     TapState averaged, enveloped, direct;
+    bool sticks = false;  // in contact all the time
   };
   std::vector<Pair> pairs{};
 };
@@ -104,7 +105,7 @@ void rest(RestCase& one) {
       ++one.elsewhere;
       continue;
     }
-    RestCase::Pair pair{roots[i].state, roots[i].state, direct};
+    RestCase::Pair pair{roots[i].state, roots[i].state, direct, roots[i].averages.contact_share > 0.99};
     // for a hand a swing of less than a twentieth of the free one is stopped
     if (one.with_envelope && roots[i].state.amplitude > 0.05 * one.sample.lever().free_amplitude) {
       if (!envelope) envelope.emplace(flow, surface->contact_height());
@@ -140,8 +141,12 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
       outside_envelope += envelope.share > 3e-3 || envelope.degrees > 0.5 ? 1U : 0U;
       // a swing of less than a twentieth of the free one, between attraction and contact, is off by up to 1 %
       const bool small = pair.direct.amplitude < 0.05 * one.sample.lever().free_amplitude;
-      EXPECT_LE(envelope.share, small ? 1e-2 : 3e-3) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
-                                                     << nm_of(pair.direct.amplitude) << " flow " << flow.share;
+      // one that sticks is a spring in the averages, which a soft contact is not: up to 4 %
+      EXPECT_LE(envelope.share, pair.sticks ? 5e-2
+                                : small     ? 1e-2
+                                            : 3e-3)
+          << text_of(one.sample) << " z " << nm_of(one.z) << " A " << nm_of(pair.direct.amplitude) << " flow "
+          << flow.share;
       EXPECT_LE(envelope.degrees, 0.5) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
                                        << nm_of(pair.direct.amplitude) << " flow " << flow.degrees;
     }
