@@ -142,17 +142,6 @@ AveragedFlow::Linear AveragedFlow::linear(const TapState& state, double z) noexc
 }
 
 bool AveragedFlow::follow(TapState& state, Length z) noexcept {
-  const double shift = shift_;
-  if (newton(state, z)) return true;
-  // no part of a swing that was not found
-  if (!is_as_felt()) {
-    shift_ = shift;
-    shape_->straighten();
-  }
-  return false;
-}
-
-bool AveragedFlow::newton(TapState& state, Length z) noexcept {
   constexpr int kMostSteps = 12;
   constexpr double kFarthest = 0.05;  // in phase, and in amplitude as a share of it: beyond lies another branch
   TapState next = state;
@@ -177,18 +166,12 @@ bool AveragedFlow::newton(TapState& state, Length z) noexcept {
 
 RestingTap AveragedFlow::settle(const TapState& from, Length z) {
   constexpr int kMostSteps = 300, kBetweenTries = 20;
-  constexpr double kMostTurned = 200.0 * std::numbers::pi;  // rad; only steps too long for a contact turn so far
   TapState state = from;
   if (follow(state, z)) return describe(state, z);
   for (int i = 1; i <= kMostSteps; ++i) {
     step(state, z, longest_step());
-    if (i % kBetweenTries == 0) {
-      if (!is_as_felt()) state.phase = std::remainder(state.phase, 2.0 * std::numbers::pi);
-      if (follow(state, z)) return describe(state, z);
-    }
-    if (!is_as_felt() && std::abs(state.phase - from.phase) > kMostTurned) break;
+    if (i % kBetweenTries == 0 && follow(state, z)) return describe(state, z);
   }
-  if (!is_as_felt()) state.phase = std::remainder(state.phase, 2.0 * std::numbers::pi);
   // a contact too stiff for the steps of the flow, or a law with a step at contact, about which the swing hovers
   RestingTap nearest = describe(state, z);
   double least = HUGE_VAL;

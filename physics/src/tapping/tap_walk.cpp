@@ -10,13 +10,6 @@
 namespace afm::physics {
 namespace {
 
-// Whether a swing goes on as it was within this distance: no fold, though Newton's method did not follow, as where a
-// contact begins.
-bool same_swing_beside(const TapState& before, const TapState& after, Length distance) {
-  constexpr double kSamePhase = 0.02;  // rad
-  return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(after.phase - before.phase) < kSamePhase;
-}
-
 // From rest at one height to rest at another, along the branch as far as it goes. `follows`: the swing is known to rest
 // on a branch, before and after.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
@@ -44,10 +37,6 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     const TapState landed = flow.settle(state, beyond).state;
     TapState after = landed;
     flow.follow(after, fold);
-    if (!flow.is_as_felt() && same_swing_beside(state, after, Length(kBeyondFold))) {
-      state = flow.settle(landed, to).state;
-      return;
-    }
     add_tap_point(curve, flow.lever(), branch, fold, flow.describe(state, fold));
     add_tap_point(curve, flow.lever(), branch, fold, flow.describe(after, fold));
     curve.jumps.push_back({branch, fold, fold, fold, state, after});

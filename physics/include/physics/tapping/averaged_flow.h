@@ -44,7 +44,7 @@ class AveragedFlow {
   static constexpr double kLeastQuality = 100.0;
 
   // AsFelt: as sessions of a hand have it, which replay bit for bit. Its loss of the harmonics is too large for swings
-  // far smaller than the mean deflection, and behind a fold it may begin with the bend of a swing that it did not find.
+  // far smaller than the mean deflection.
   enum class Search { Exact, AsFelt };
 
   AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever, Search search = Search::Exact);
@@ -90,7 +90,6 @@ class AveragedFlow {
   bool bent_averages_at(double amplitude, double z, double coarseness) noexcept;  // false: no shape was found
   void straight_averages_at(double amplitude, double z) noexcept;
   Rate rate(const TapState& state, double z) noexcept;
-  bool newton(TapState& state, Length z) noexcept;
   // The flow about a swing, to first order.
   struct Linear {
     Rate rate;
