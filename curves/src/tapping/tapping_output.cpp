@@ -34,6 +34,7 @@ const char* name_of_branch(Branch branch) { return branch == Branch::Approach ? 
 const char* name_of_method(physics::TapMethod method) {
   return method == physics::TapMethod::Averaged ? "averaged" : "direct";
 }
+const char* finder_of(const TapStateRow& row) { return row.swing ? "direct integration" : "averaging"; }
 const char* name_of_state(const physics::SwingAverages& averages) {
   return averages.virial > physics::Energy() ? "attractive" : "repulsive";
 }
@@ -157,6 +158,7 @@ json states_json(const TappingRun& run) {
     json state = state_json(row.tap.state);
     if (row.start.empty()) {
       state["stable"] = row.tap.stable;
+      state["found_by"] = finder_of(row);
     } else {
       state["start"] = row.start;
     }
@@ -195,12 +197,14 @@ std::string tapping_csv(const TappingRun& run) {
                  drive_header(run), conventions_header(true));
   if (run.at) {
     fmt::format_to(out, "amplitude_m,phase_deg,mean_deflection_m,{},energy_cleveland_J,state,{}\n", kAverageColumns,
-                   run.method == physics::TapMethod::Averaged ? "stable" : "start");
+                   run.method == physics::TapMethod::Averaged ? "stable,found_by" : "start");
     for (const TapStateRow& row : run.states) {
       fmt::format_to(out, "{},{},{},", row.tap.state.amplitude.si, degrees(row.tap.state.phase),
                      row.tap.deflection.si + 0.0);
       append_averages(text, row.tap.averages);
-      const char* last = run.method == physics::TapMethod::Direct ? row.start.c_str() : row.tap.stable ? "yes" : "no";
+      const std::string last = run.method == physics::TapMethod::Direct
+                                   ? row.start
+                                   : fmt::format("{},{}", row.tap.stable ? "yes" : "no", finder_of(row));
       fmt::format_to(out, ",{},{},{}\n", row.cleveland.si + 0.0, name_of_state(row.tap.averages), last);
     }
     return fmt::to_string(text);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -12,6 +13,7 @@
 
 #include "curves/viscosity_units.h"
 #include "physics/quantity_text.h"
+#include "physics/tapping/swing_map.h"
 #include "physics/van_der_waals.h"
 
 namespace afm::curves {
@@ -66,9 +68,11 @@ core::Result<physics::TapMethod> read_method(const std::string& text, const phys
                                  physics::AveragedFlow::kLeastQuality, lever.quality_factor));
 }
 
-// Both starts by direct integration, or all states of the averaged flow.
+// Both starts by direct integration, or all states of the averaged flow; `complete`: and those that only direct
+// integration has.
 std::vector<TapStateRow> states_at(const std::shared_ptr<const physics::TapSurface>& surface,
-                                   const physics::DrivenLever& lever, physics::TapMethod method, physics::Length z) {
+                                   const physics::DrivenLever& lever, physics::TapMethod method, bool complete,
+                                   physics::Length z) {
   std::vector<TapStateRow> rows;
   const auto add = [&](const char* start, const physics::RestingTap& tap,
                        std::optional<physics::DirectSwing> swing = std::nullopt) {
@@ -79,7 +83,16 @@ std::vector<TapStateRow> states_at(const std::shared_ptr<const physics::TapSurfa
   };
   if (method == physics::TapMethod::Averaged) {
     physics::AveragedFlow flow(surface, lever);
-    for (const physics::RestingTap& tap : flow.resting_at(z)) add("", tap);
+    std::vector<physics::TapState> averaged;
+    for (const physics::RestingTap& tap : flow.resting_at(z)) {
+      averaged.push_back(tap.state);
+      add("", tap);
+    }
+    if (!complete) return rows;
+    physics::SwingMap map(surface, lever);
+    for (const physics::DirectSwing& swing : map.stable_beside(averaged, z)) add_direct("", swing);
+    std::sort(rows.begin(), rows.end(),
+              [](const TapStateRow& a, const TapStateRow& b) { return a.tap.state.amplitude < b.tap.state.amplitude; });
     return rows;
   }
   physics::TappingOscillator tip(surface, lever);
@@ -113,7 +126,7 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
     const auto at = read_quantity("--at", options.at, physics::kLengthUnits);
     if (!at) return tl::unexpected(at.error());
     run.at = *at;
-    run.states = states_at(surface, run.lever, run.method, *at);
+    run.states = states_at(surface, run.lever, run.method, options.method.empty(), *at);
     return {};
   }
   const auto [from, to] = usual_tap_path(run.lever.free_amplitude);

@@ -73,7 +73,7 @@ TappingDetector::TappingDetector(const std::shared_ptr<const TapSurface>& surfac
   if (!averages && !rests_) rests_ = std::make_shared<const TapTable>(surface, lever);
   hold(setpoint);
   if (averages) {
-    AveragedFlow flow(surface, lever);
+    AveragedFlow flow(surface, lever, AveragedFlow::Search::AsFelt);
     envelope_ = std::make_unique<TapEnvelope>(flow, surface->contact_height());
   } else {
     envelope_ = std::make_unique<TapEnvelope>(rests_);
@@ -126,7 +126,7 @@ TappingDetector::Engaged TappingDetector::find_setpoint(Length setpoint) const {
   if (rests_) {
     held = first_held(*rests_, setpoint.si);
   } else {
-    AveragedFlow flow(surface_, lever_);
+    AveragedFlow flow(surface_, lever_, AveragedFlow::Search::AsFelt);
     held = first_held(flow, surface_->contact_height().si, setpoint.si);
   }
   if (!held) throw UnphysicalValue("setpoint", "no height of the lever has this amplitude over the sample");

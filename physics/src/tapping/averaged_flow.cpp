@@ -19,14 +19,15 @@ constexpr double kLeastSlope = -0.2;       // slope of <F G>/k - x; no step is l
 
 }  // namespace
 
-AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever)
+AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever, Search search)
     : surface_(std::move(surface)),
       lever_(lever),
+      search_(search),
       k_(lever.spring_constant.si),
       a_(lever.base_amplitude.si),
       r_(lever.ratio),
       q_(lever.quality_factor),
-      shape_(std::make_unique<SwingShape>(k_)) {}
+      shape_(std::make_unique<SwingShape>(k_, search == Search::Exact)) {}
 
 AveragedFlow::~AveragedFlow() = default;
 
@@ -112,10 +113,14 @@ double AveragedFlow::cosine_of_rest(double amplitude) const noexcept {
   return (1.0 - r_ * r_ - 2.0 * averages_.virial.si / (k_ * amplitude * amplitude)) * amplitude / a_;
 }
 
-double AveragedFlow::imbalance(double amplitude, double z) noexcept {
-  averages_at(amplitude, z);
+double AveragedFlow::imbalance_of(double amplitude) const noexcept {
   const double sine = sine_of_rest(amplitude), cosine = cosine_of_rest(amplitude);
   return sine * sine + cosine * cosine - 1.0;
+}
+
+double AveragedFlow::imbalance(double amplitude, double z) noexcept {
+  averages_at(amplitude, z);
+  return imbalance_of(amplitude);
 }
 
 RestingTap AveragedFlow::describe(const TapState& state, Length z) noexcept {
@@ -170,7 +175,7 @@ RestingTap AveragedFlow::settle(const TapState& from, Length z) {
   // a contact too stiff for the steps of the flow, or a law with a step at contact, about which the swing hovers
   RestingTap nearest = describe(state, z);
   double least = HUGE_VAL;
-  for (const RestingTap& tap : resting_at(z)) {
+  for (const RestingTap& tap : resting_at(z, Roots::Slow)) {
     const double distance = std::abs(tap.state.phase - state.phase) +
                             std::abs((tap.state.amplitude - state.amplitude).si) / lever_.free_amplitude.si;
     if (!tap.stable || distance >= least) continue;
@@ -207,7 +212,26 @@ AveragedFlow::Sample AveragedFlow::sample_at(double lowest, double z) noexcept {
   return {lowest, amplitude <= kLeastAmplitude ? -1.0 : imbalance(amplitude, z)};
 }
 
-std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z) {
+// To 1e-13 m: enough for a sign. The averages are those of the search itself where it has converged.
+AveragedFlow::Sample AveragedFlow::rough_sample_at(double lowest, double z) noexcept {
+  constexpr int kMostSteps = 24;
+  constexpr double kError = 1e-13;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
+    averages_ =
+        surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()}, shape_.get());
+    const double bend_error = shape_->finish(), shift = averages_.shift_at_lowest.si / k_;
+    const double missing = shift - shift_;
+    shift_ = shift;
+    if (!std::isfinite(shift)) break;
+    if (std::abs(missing) > kError || bend_error > kError) continue;
+    if (amplitude <= kLeastAmplitude) break;
+    return {lowest, imbalance_of(amplitude)};
+  }
+  return sample_at(lowest, z);
+}
+
+std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z, Roots roots) {
   constexpr double kFinest = 4e-12, kGrowth = 1.12;  // m; dense where contact begins
   constexpr double kHopeless = 30.0;                 // imbalance of a push far beyond what the drive sustains
   constexpr int kSeen = 6;                           // such samples in a row, as a swing may have lost its shape
@@ -218,12 +242,15 @@ std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z) {
   heights.push_back(contact);
   std::vector<Sample> samples;
   samples.reserve(heights.size());
+  const auto look_at = [&](double lowest) {
+    return roots == Roots::Quick ? rough_sample_at(lowest, z) : sample_at(lowest, z);
+  };
   shift_ = 0.0;
-  for (const double lowest : heights) samples.push_back(sample_at(lowest, z));
+  for (const double lowest : heights) samples.push_back(look_at(lowest));
   const double deepest = std::max(z, 4.0 * lever_.free_amplitude.si);
   int hopeless = 0;
   for (double d = kFinest; d < deepest; d *= kGrowth) {
-    samples.push_back(sample_at(contact - d, z));
+    samples.push_back(look_at(contact - d));
     hopeless = averages_.virial.si < 0.0 && samples.back().imbalance > kHopeless ? hopeless + 1 : 0;
     if (hopeless == kSeen) break;
   }
@@ -296,21 +323,36 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
   shape_->straighten();
   // the contact may be no spring
   follow(state, Length(z));
-  return describe(state, Length(z));
+  const RestingTap tap = describe(state, Length(z));
+  const double deflection = low - z;
+  // a free swing may have the same amplitude
+  if (is_as_felt() || std::abs(tap.deflection.si - deflection) < 0.1 * std::abs(deflection)) return tap;
+  averages_ = surface_->averages({state.amplitude, Length(low), lever_.angular_drive()});
+  return RestingTap{.state = state, .deflection = Length(deflection), .averages = averages_, .stable = true};
 }
 
-std::vector<RestingTap> AveragedFlow::resting_at(Length z) {
-  constexpr double kAtRest = 0.02;  // imbalance of a root
-  constexpr double kSame = 1e-9;    // share of the amplitude by which two roots differ
-  const std::vector<Sample> samples = samples_at(z.si);
+std::vector<RestingTap> AveragedFlow::resting_at(Length z, Roots roots) {
+  constexpr double kAtRest = 0.02;                         // imbalance of a root
+  constexpr double kSame = 1e-9;                           // share of the amplitude by which two roots differ
+  constexpr double kSameListed = 2e-3, kSamePhase = 0.01;  // share and rad by which two listed stable roots differ
+  const std::vector<Sample> samples = samples_at(z.si, roots);
   const auto differ = [](const Sample& a, const Sample& b) { return (a.imbalance < 0.0) != (b.imbalance < 0.0); };
   std::vector<RestingTap> taps;
   // a change of sign where the shape of the swing is lost is no state, but one at the step of a latch is
   const bool latches = surface_->release_height() != surface_->contact_height();
+  // a swing that is found again from a lowest height deep in the sample, without the shape that it has
+  const auto found_again = [&](const RestingTap& tap) {
+    return roots == Roots::Quick && std::any_of(taps.begin(), taps.end(), [&](const RestingTap& other) {
+             return other.stable && tap.stable &&
+                    abs(other.state.amplitude - tap.state.amplitude) < kSameListed * tap.state.amplitude &&
+                    std::abs(other.state.phase - tap.state.phase) < kSamePhase;
+           });
+  };
   const auto add_between = [&](const Sample& one, const Sample& other) {
     const RestingTap tap = root_between(one, other, z.si);
     const bool again =
-        !taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) < kSame * tap.state.amplitude;
+        (!taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) < kSame * tap.state.amplitude) ||
+        found_again(tap);
     if (!again && (latches || std::abs(imbalance(tap.state.amplitude.si, z.si)) < kAtRest)) taps.push_back(tap);
   };
   for (std::size_t i = 1; i < samples.size(); ++i) {

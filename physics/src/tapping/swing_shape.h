@@ -25,7 +25,8 @@ namespace afm::physics {
 // not allocate.
 class SwingShape {
  public:
-  explicit SwingShape(double spring_constant) : k_(spring_constant) {}
+  // `halves`: of a node's force half lies before it, for the rate; without, the rate is off by up to that half.
+  explicit SwingShape(double spring_constant, bool halves = true) : k_(spring_constant), halves_(halves) {}
 
   // Of the newest quadrature, between its nodes; 0 without one.
   double bend(double angle) const noexcept;
@@ -46,7 +47,9 @@ class SwingShape {
   void add(double angle, double cosine, double sine, double weight, double force, double bend) noexcept {
     if (count_ == kMostNodes) return;
     const double global = -2.0 * (p_ * sine + c_ * angle * cosine) - c_ * sine;
-    const double rate = global / (2.0 * std::numbers::pi * k_) + (cosine * cosine_before_ + sine * sine_before_) / k_;
+    const double here = halves_ ? 0.5 * weight * force : 0.0;
+    const double rate =
+        global / (2.0 * std::numbers::pi * k_) + (cosine * cosine_before_ + sine * sine_before_ + here) / k_;
     rate_squares_ += weight * rate * rate;
     cosine_before_ += weight * force * cosine;
     sine_before_ += weight * force * sine;
@@ -68,6 +71,7 @@ class SwingShape {
   using Nodes = std::array<Node, kMostNodes>;
 
   double k_;
+  bool halves_;
   double p_ = 0.0, c_ = 0.0;
   double cosine_before_ = 0.0, sine_before_ = 0.0;  // integrals of F cos(t), F sin(t) up to the newest node
   double rate_squares_ = 0.0;                       // integral of (dy/dt)^2 up to it

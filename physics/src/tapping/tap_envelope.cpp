@@ -53,7 +53,9 @@ TapEnvelope::TapEnvelope(std::shared_ptr<const TapTable> rests)
       free_cosine_(std::cos(lever_->free_phase)),
       free_sine_(std::sin(lever_->free_phase)),
       u_(lever_->free_amplitude.si * free_cosine_),
-      v_(lever_->free_amplitude.si * free_sine_) {}
+      v_(lever_->free_amplitude.si * free_sine_) {
+  measure();
+}
 
 TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
     : lever_(std::make_shared<const DrivenLever>(flow.lever())),
@@ -65,16 +67,18 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
   amplitude_step_m_ = (kLastShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
   set_pace();
   least_x_ = std::floor(column_of(-2.0 * a0));
-  columns_ = static_cast<std::size_t>(std::ceil(column_of(kFarthestGap)) - least_x_) + 1;
-  Tables tables{std::vector<Moving>(kAmplitudes * columns_), std::vector<Forces>(kAmplitudes * columns_)};
+  last_column_ = std::ceil(column_of(kFarthestGap)) - least_x_;
+  const std::size_t columns = static_cast<std::size_t>(last_column_) + 1;
+  columns_ = static_cast<std::ptrdiff_t>(columns);
+  Tables tables{std::vector<Moving>(kAmplitudes * columns), std::vector<Forces>(kAmplitudes * columns)};
   for (std::size_t row = 0; row < kAmplitudes; ++row) {
     const double amplitude = least_amplitude_m_ + static_cast<double>(row) * amplitude_step_m_;
     // from far away inwards, so that the shift of each swing begins near its own
-    for (std::size_t i = columns_; i-- > 0;) {
+    for (std::size_t i = columns; i-- > 0;) {
       const double gap = gap_of(least_x_ + static_cast<double>(i));
       const SwingAverages& swing = flow.averages(Length(amplitude), Length(contact_m_ + gap + amplitude));
       const double root = std::sqrt(amplitude);
-      const std::size_t node = row * columns_ + i;
+      const std::size_t node = row * columns + i;
       tables.moving[node] = {static_cast<float>(swing.virial.si / root), static_cast<float>(flow.lost().si / root)};
       tables.forces[node] = {static_cast<float>(swing.peak.si), static_cast<float>(swing.mean.si * root),
                              static_cast<float>(swing.lost.si / root)};
@@ -83,6 +87,7 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
   tables_ = std::make_shared<const Tables>(std::move(tables));
   u_ = a0 * free_cosine_;
   v_ = a0 * free_sine_;
+  measure();
 }
 
 void TapEnvelope::set_pace() noexcept {
@@ -108,9 +113,10 @@ TapEnvelope::Place TapEnvelope::place_of(double amplitude_m, double gap_m) const
   const double x = std::max(0.0, column_of(gap_m - amplitude_m - contact_m_) - least_x_);
   const double y =
       std::clamp((amplitude_m - least_amplitude_m_) * pace_.by_row, 0.0, static_cast<double>(kAmplitudes) - 1.000001);
-  if (!(x < static_cast<double>(columns_ - 1))) return {};
-  const auto column = static_cast<std::size_t>(x), row = static_cast<std::size_t>(y);
-  return {.node = row * columns_ + column,
+  if (!(x < last_column_)) return {};
+  // numbers with a sign are converted in one instruction each
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  return {.node = std::ptrdiff_t{row} * columns_ + column,
           .right = x - static_cast<double>(column),
           .up = y - static_cast<double>(row),
           .beyond = false};
@@ -142,6 +148,7 @@ TapEnvelope::Swing TapEnvelope::contact() const noexcept {
 
 void TapEnvelope::place(double u_m, double v_m, double gap_m) noexcept {
   u_ = u_m, v_ = v_m;
+  measure();
   gap_m_ = gap_m;
   if (rests_) repelled_ = rests_->repelled_at(attraction() < 0.0, gap_m);
 }
@@ -156,6 +163,7 @@ void TapEnvelope::approach_rest(double gap_m, double angle) noexcept {
   const double kept = std::exp(-0.5 * angle / lever_->quality_factor);
   u_ = rest.u_m + kept * (u_ - rest.u_m);
   v_ = rest.v_m + kept * (v_ - rest.v_m);
+  measure();
 }
 
 void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int most_steps) noexcept {
@@ -174,15 +182,25 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
                  detuned + by_stored * share * between(tables_->moving, place, &Moving::virial)};
   };
   const auto length = [lowest](double u, double v) { return std::max(lowest, std::sqrt(u * u + v * v)); };
-  // angular rate at which amplitude and phase ring about a contact, from w' = dw/dA at this height: sqrt(|w' a/2r cos
-  // phi|)
+  // Amplitude and phase ring about a contact with the angular rate sqrt(|w' a/2r cos phi|), w' = dw/dA at this height;
+  // its square times A.
   const auto ringing = [&](double amplitude, double gap_m, double w) {
     const double more = amplitude + amplitude_step_m_ * kNudge;
     const Place place = place_of(more, gap_m);
     if (place.beyond) return 0.0;
     const double virial = between(tables_->moving, place, &Moving::virial);
     const double steeper = by_stored * std::sqrt(more) / (more * more) * virial - (w - detuned);
-    return std::sqrt(std::abs(steeper * pace_.by_nudge * drive * u_ / amplitude));
+    return std::abs(steeper * pace_.by_nudge * drive * u_);
+  };
+  // Of most steps it is clear without a root that all that is left is short enough.
+  const auto step_of = [&](double most, double w, double ring, double amplitude) {
+    constexpr double kClear = 0.98;
+    const bool clear = pace_.slowest * most < kClear && std::abs(w) * most < kClear * kLargestTurn &&
+                       ring * most * most < kClear * kLargestRing * kLargestRing * amplitude;
+    if (clear) return most;
+    const double fastest = std::max(
+        {pace_.slowest, std::abs(w) * (1.0 / kLargestTurn), std::sqrt(ring / amplitude) * (1.0 / kLargestRing)});
+    return std::min(most, 1.0 / fastest);
   };
   const double way_m = to_gap_m - from_gap_m;
   const double by_angle = angle > 0.0 ? 1.0 / angle : 0.0, by_steps = 1.0 / static_cast<double>(most_steps);
@@ -193,11 +211,9 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
   };
   for (int i = 0; left > 0.0 && i < most_steps; ++i) {
     const double gap_m = gap_at(left, i);
-    const double amplitude = length(u_, v_);
+    const double amplitude = std::max(lowest, amplitude_);
     const Rates first = rates(amplitude, gap_m);
-    const double fastest = std::max({pace_.slowest, std::abs(first.w) * (1.0 / kLargestTurn),
-                                     ringing(amplitude, gap_m, first.w) * (1.0 / kLargestRing)});
-    const double step = std::min(left, 1.0 / fastest);
+    const double step = step_of(left, first.w, ringing(amplitude, gap_m, first.w), amplitude);
     const double middle_m = 0.5 * (gap_m + gap_at(left - step, i + 1));
     const double half = 0.5 * step;
     const double middle_u = u_ + half * (-first.g * u_ - first.w * v_);
@@ -212,11 +228,12 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
     const double u = u_ - rest_u, v = v_ - rest_v;
     u_ = rest_u + cosine * u - sine * v;
     v_ = rest_v + sine * u + cosine * v;
+    measure();
     left -= step;
   }
 }
 
-double TapEnvelope::amplitude_m() const noexcept { return std::sqrt(u_ * u_ + v_ * v_); }
+void TapEnvelope::measure() noexcept { amplitude_ = std::sqrt(u_ * u_ + v_ * v_); }
 
 double TapEnvelope::phase_rad() const noexcept {
   const double phase = std::atan2(v_, u_);
@@ -224,8 +241,7 @@ double TapEnvelope::phase_rad() const noexcept {
 }
 
 double TapEnvelope::attraction() const noexcept {
-  const double amplitude = amplitude_m();
-  return amplitude > 0.0 ? (v_ * free_cosine_ - u_ * free_sine_) / amplitude : 0.0;
+  return amplitude_ > 0.0 ? (v_ * free_cosine_ - u_ * free_sine_) / amplitude_ : 0.0;
 }
 
 }  // namespace afm::physics

@@ -45,7 +45,7 @@ TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
 // From above the attraction, also where its range is long, down to contact, or to where the sample stops the swing: a
 // smaller one may jump to states that the envelope of a hand does not reach.
 TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
-  AveragedFlow flow(surface, lever);
+  AveragedFlow flow(surface, lever, AveragedFlow::Search::AsFelt);
   const Length a0 = lever.free_amplitude, floor = surface->contact_height();
   Length from = floor + a0 + std::max(kClearOfSample, 0.5 * a0);
   while (from < kMostReachOfSwing * a0) {

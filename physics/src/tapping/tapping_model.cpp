@@ -22,7 +22,7 @@ constexpr int kLooks = 24;            // at the state, in a step
 TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                         const LawTables& tables) {
   if (tables.taps) return TapEnvelope(tables.taps);
-  AveragedFlow flow(surface, lever);
+  AveragedFlow flow(surface, lever, AveragedFlow::Search::AsFelt);
   return {flow, surface->contact_height()};
 }
 

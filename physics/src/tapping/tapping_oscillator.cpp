@@ -201,6 +201,13 @@ DirectSwing TappingOscillator::swing() noexcept {
   return result;
 }
 
+TapState TappingOscillator::advance(int swings) noexcept {
+  Sums none;
+  for (int i = 0; i < swings; ++i) one_swing<false>(none);
+  const double x = free_x_.front() + y_, v = (free_v_.front() + v_) / lever_.angular_drive();
+  return {Length(std::hypot(x, v)), std::atan2(v, x)};
+}
+
 DirectSwing TappingOscillator::settle(double settled) noexcept {
   constexpr int kBetweenChecks = 50, kAveraged = 16;
   move_base(Length());

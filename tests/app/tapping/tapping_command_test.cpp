@@ -36,8 +36,8 @@ curves::TappingChoice tapping() {
   return choice;
 }
 
-nlohmann::json json_of(const curves::TappingChoice& choice) {
-  const auto text = tapping_text(choice, tapped(), {}, "json");
+nlohmann::json json_of(const curves::TappingChoice& choice, const curves::ContactOptions& contact = tapped()) {
+  const auto text = tapping_text(choice, contact, {}, "json");
   return text ? nlohmann::json::parse(*text) : nlohmann::json(text.error().message);
 }
 
@@ -70,6 +70,29 @@ TEST(TappingCommand, PrintsEveryStateAtAHeight) {
   const auto json = json_of(choice);
   ASSERT_EQ(json["states"].size(), 3u);
   EXPECT_EQ(json["states"][1]["stable"], false);
+  EXPECT_EQ(json["states"][1]["found_by"], "averaging");
+}
+
+// A soft lever over a stiff contact that adheres.
+TEST(TappingCommand, CompletesTheStatesByDirectIntegrationUnlessToldToAverage) {
+  curves::ContactOptions contact = tapped();
+  contact.values["spring-constant"] = "0.858385N/m";
+  contact.values["tip-radius"] = "48.3545nm";
+  contact.values["hamaker"] = "18.9712zJ";
+  contact.values["reduced-modulus"] = "91.647GPa";
+  contact.values["quality-factor"] = "273.88495";
+  curves::TappingChoice choice = tapping();
+  choice.numbers.free_amplitude = "9.374816nm";
+  choice.numbers.at = "7.711918nm";
+  const auto states = json_of(choice, contact)["states"];
+  ASSERT_EQ(states.size(), 2u) << states;
+  EXPECT_EQ(states[0]["found_by"], "averaging");
+  EXPECT_EQ(states[1]["found_by"], "direct integration");
+  EXPECT_EQ(states[1]["state"], "repulsive");
+  EXPECT_NEAR(states[1]["amplitude_m"].get<double>(), 7.52454e-9, 1e-12);
+  EXPECT_GT(states[1]["harmonics_m"].size(), 3u);
+  choice.numbers.method = "averaged";
+  EXPECT_EQ(json_of(choice, contact)["states"].size(), 1u);
 }
 
 nlohmann::json swept(const std::vector<std::string>& sweeps, const curves::ContactOptions& contact = tapped()) {

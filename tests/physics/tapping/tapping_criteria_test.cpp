@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/swing_map.h"
 #include "physics/tapping/tap_envelope.h"
 #include "physics/tapping/tapped_sample.h"
 #include "physics/tapping/tapping_curve.h"
@@ -75,9 +76,17 @@ struct RestCase {
   std::size_t elsewhere = 0;  // number of states that direct integration leaves
   struct Pair {
     TapState averaged, enveloped, direct;
+    bool sticks = false;  // in contact all the time
   };
   std::vector<Pair> pairs{};
 };
+
+// The point at the drive's angle of zero of a swing about its mean deflection, which is large where a tip sticks.
+TapState beginning_of(const RestingTap& tap) {
+  const double x = tap.deflection.si + tap.state.amplitude.si * std::cos(tap.state.phase);
+  const double v = tap.state.amplitude.si * std::sin(tap.state.phase);
+  return {Length(std::hypot(x, v)), std::atan2(v, x)};
+}
 
 // The stable roots at one height, and where direct integration and the envelope rest that begin in them.
 void rest(RestCase& one) {
@@ -88,7 +97,7 @@ void rest(RestCase& one) {
   std::optional<TapEnvelope> envelope;
   for (std::size_t i = 0; i < roots.size(); ++i) {
     if (!roots[i].stable) continue;
-    tip.place(one.z, roots[i].state);
+    tip.place(one.z, beginning_of(roots[i]));
     (void)tip.settle();
     const TapState direct = resting_tap(tip.settle()).state;
     // another state, also one that is not among the roots
@@ -96,7 +105,7 @@ void rest(RestCase& one) {
       ++one.elsewhere;
       continue;
     }
-    RestCase::Pair pair{roots[i].state, roots[i].state, direct};
+    RestCase::Pair pair{roots[i].state, roots[i].state, direct, roots[i].averages.contact_share > 0.99};
     // for a hand a swing of less than a twentieth of the free one is stopped
     if (one.with_envelope && roots[i].state.amplitude > 0.05 * one.sample.lever().free_amplitude) {
       if (!envelope) envelope.emplace(flow, surface->contact_height());
@@ -132,8 +141,12 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
       outside_envelope += envelope.share > 3e-3 || envelope.degrees > 0.5 ? 1U : 0U;
       // a swing of less than a twentieth of the free one, between attraction and contact, is off by up to 1 %
       const bool small = pair.direct.amplitude < 0.05 * one.sample.lever().free_amplitude;
-      EXPECT_LE(envelope.share, small ? 1e-2 : 3e-3) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
-                                                     << nm_of(pair.direct.amplitude) << " flow " << flow.share;
+      // one that sticks is a spring in the averages, which a soft contact is not: up to 4 %
+      EXPECT_LE(envelope.share, pair.sticks ? 5e-2
+                                : small     ? 1e-2
+                                            : 3e-3)
+          << text_of(one.sample) << " z " << nm_of(one.z) << " A " << nm_of(pair.direct.amplitude) << " flow "
+          << flow.share;
       EXPECT_LE(envelope.degrees, 0.5) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
                                        << nm_of(pair.direct.amplitude) << " flow " << flow.degrees;
     }
@@ -145,34 +158,46 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
   RecordProperty("most_share", std::to_string(most_share));
   RecordProperty("most_degrees", std::to_string(most_degrees));
   EXPECT_GE(compared, cases.size());
-  EXPECT_LE(elsewhere, compared / 20 + 2);
+  EXPECT_LE(elsewhere, compared / 30 + 2);
 }
 
 struct StartCase {
   TappedSample sample;
   Length z;
   std::vector<TapState> starts{};
-  std::vector<DirectSwing> unknown{};  // swings at rest that are no root, each once
-  std::size_t roots = 0;
+  struct Unknown {
+    DirectSwing swing;
+    double moved;  // from one swing to the next, as a share of the free amplitude
+  };
+  std::vector<Unknown> unknown{};  // swings that are no known state, each once
+  std::size_t averaged = 0, mapped = 0;
 };
 
 bool same(const TapState& a, const TapState& b) {
   const Apart from = apart(a, b);
-  return from.share < 0.01 && from.degrees < 1.5;
+  // the steps of direct integration hold a swing over a stiff contact at phases of their own
+  return from.share < 0.01 && from.degrees < 2.0;
 }
 
-// Swings on from every start until it is clearly in a root, or at rest anywhere else.
+// Swings on from every start until it is clearly in a known state, or for ten relaxations.
 void start_anywhere(StartCase& one) {
   const auto surface = one.sample.surface();
   AveragedFlow flow(surface, one.sample.lever());
-  const std::vector<RestingTap> roots = flow.resting_at(one.z);
-  one.roots = roots.size();
+  std::vector<RestingTap> roots = flow.resting_at(one.z);
+  one.averaged = roots.size();
+  std::vector<TapState> averaged;
+  for (const RestingTap& root : roots) averaged.push_back(root.state);
+  SwingMap map(surface, one.sample.lever());
+  for (const DirectSwing& beside : map.stable_beside(averaged, one.z)) {
+    roots.push_back(resting_tap(beside));
+    ++one.mapped;
+  }
   TappingOscillator tip(surface, one.sample.lever());
   const auto known = [&](const TapState& swing) {
     const int root = nearest_root(roots, swing);
     return (root >= 0 && same(swing, roots[static_cast<std::size_t>(root)].state)) ||
            std::any_of(one.unknown.begin(), one.unknown.end(),
-                       [&](const DirectSwing& seen) { return same(swing, resting_tap(seen).state); });
+                       [&](const StartCase::Unknown& seen) { return same(swing, resting_tap(seen.swing).state); });
   };
   constexpr double kAnyChange = 1e9;  // settle() then takes 67 swings
   const int stretches = static_cast<int>(std::ceil(0.5 * one.sample.q / 67.0));
@@ -183,13 +208,18 @@ void start_anywhere(StartCase& one) {
       for (int i = 1; i < stretches; ++i) (void)tip.settle(kAnyChange);
       in_root = known(resting_tap(tip.settle(kAnyChange)).state) ? in_root + 1 : 0;
     }
-    if (in_root < 2) one.unknown.push_back(tip.settle());
+    if (in_root == 2) continue;
+    const DirectSwing swing = tip.settle();
+    const TapState here = tip.advance(1), next = tip.advance(1);
+    const auto x = [](const TapState& at) { return at.amplitude.si * std::cos(at.phase); };
+    const auto v = [](const TapState& at) { return at.amplitude.si * std::sin(at.phase); };
+    one.unknown.push_back({swing, std::hypot(x(next) - x(here), v(next) - v(here)) / (one.sample.a0_nm * 1e-9)});
   }
 }
 
-// Criterion: `states` finds every root that 1000 random starts of direct integration find, on 20 set-ups. It does on
-// 14 of them: on 6, levers of less than 1 N/m over contacts that adhere, a state is missing, or the swing does not come
-// to rest. A tenth of the starts has to do.
+// Criterion: `states` finds every root that 1000 random starts of direct integration find, on 20 set-ups: averages and
+// the map of a swing together, for over soft levers that adhere the averages lack some. A swing that is none of them
+// does not rest: it differs from the next one. A tenth of the starts has to do.
 TEST(TappingDeep, EveryStateOfDirectIntegrationIsAmongTheAveragedOnes) {
   RandomInteraction random(12);
   std::vector<StartCase> cases;
@@ -204,16 +234,18 @@ TEST(TappingDeep, EveryStateOfDirectIntegrationIsAmongTheAveragedOnes) {
     cases.push_back(one);
   }
   run_all<StartCase>(cases, start_anywhere);
-  int lacking = 0;
+  std::size_t mapped = 0, restless = 0;
   for (const StartCase& one : cases) {
-    lacking += one.unknown.empty() ? 0 : 1;
-    for (const DirectSwing& lost : one.unknown) {
-      EXPECT_LT(one.sample.k, 1.0) << text_of(one.sample) << " z " << nm_of(one.z) << " roots " << one.roots << " A "
-                                   << nm_of(lost.state.amplitude) << " phase " << degrees_of(lost.state.phase);
+    mapped += one.mapped;
+    restless += one.unknown.size();
+    for (const StartCase::Unknown& lost : one.unknown) {
+      EXPECT_GT(lost.moved, 1e-3) << text_of(one.sample) << " z " << nm_of(one.z) << " averaged " << one.averaged
+                                  << " mapped " << one.mapped << " A " << nm_of(lost.swing.state.amplitude) << " phase "
+                                  << degrees_of(lost.swing.state.phase);
     }
   }
-  RecordProperty("lacking", std::to_string(lacking));
-  EXPECT_LE(lacking, 6);
+  RecordProperty("mapped", std::to_string(mapped));
+  RecordProperty("restless", std::to_string(restless));
 }
 
 struct FoldCase {

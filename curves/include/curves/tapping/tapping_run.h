@@ -31,7 +31,7 @@ struct TapStateRow {
   std::string start;  // direct integration: "free swing" or "rest"; averaged: empty
   physics::RestingTap tap;
   physics::Energy cleveland;
-  std::optional<physics::DirectSwing> swing;  // direct integration
+  std::optional<physics::DirectSwing> swing;  // direct integration; averaged: of a state that only this finds
 };
 
 // A tapping curve, or the states at one height, with all inputs.

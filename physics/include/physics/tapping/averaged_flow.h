@@ -43,7 +43,11 @@ class AveragedFlow {
  public:
   static constexpr double kLeastQuality = 100.0;
 
-  AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever);
+  // AsFelt: as sessions of a hand have it, which replay bit for bit. Its loss of the harmonics is too large for swings
+  // far smaller than the mean deflection.
+  enum class Search { Exact, AsFelt };
+
+  AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever, Search search = Search::Exact);
   ~AveragedFlow();
 
   // One step of the midpoint rule over the angle w0 dt with the base at `z`; keep it below 0.1 * 2Q.
@@ -72,9 +76,10 @@ class AveragedFlow {
 
   // Every resting swing at `z`, the smallest amplitude first, stable or not; also that of a tip that sticks to the
   // sample.
-  std::vector<RestingTap> resting_at(Length z);
+  std::vector<RestingTap> resting_at(Length z) { return resting_at(z, Roots::Quick); }
 
   const DrivenLever& lever() const noexcept { return lever_; }
+  bool is_as_felt() const noexcept { return search_ == Search::AsFelt; }
 
  private:
   struct Rate {
@@ -99,12 +104,17 @@ class AveragedFlow {
   // Amount by which a swing misses sin^2 + cos^2 = 1 for the phase that would hold it: negative if the drive is
   // stronger than needed, zero at rest.
   double imbalance(double amplitude, double z) noexcept;
+  double imbalance_of(double amplitude) const noexcept;  // of the newest averages
   // The imbalance of the swing with this lowest height.
   struct Sample {
     double lowest, imbalance;
   };
   Sample sample_at(double lowest, double z) noexcept;
-  std::vector<Sample> samples_at(double z);  // from the highest down
+  Sample rough_sample_at(double lowest, double z) noexcept;
+  // Both find the same states to some 1e-9; a session replays those of the slow one bit for bit.
+  enum class Roots { Quick, Slow };
+  std::vector<RestingTap> resting_at(Length z, Roots roots);
+  std::vector<Sample> samples_at(double z, Roots roots);  // from the highest down
   RestingTap root_between(Sample one, Sample other, double z) noexcept;
   Sample turn_between(const Sample& left, const Sample& middle, const Sample& right, double z) noexcept;
   std::optional<RestingTap> stuck_at(double z) noexcept;
@@ -114,6 +124,7 @@ class AveragedFlow {
 
   std::shared_ptr<const TapSurface> surface_;
   DrivenLever lever_;
+  Search search_;
   double k_, a_, r_, q_;
   std::unique_ptr<SwingShape> shape_;  // bend of the previous swing
   double shift_ = 0.0;                 // shift of the lowest point in the previous swing

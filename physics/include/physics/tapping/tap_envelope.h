@@ -52,7 +52,7 @@ class TapEnvelope {
   // another, in at most so many steps: a contact so stiff that it needs more is in slow motion.
   void advance(double from_gap_m, double to_gap_m, double angle, int most_steps = kUsualSteps) noexcept;
 
-  double amplitude_m() const noexcept;
+  double amplitude_m() const noexcept { return amplitude_; }
   double phase_rad() const noexcept;                               // lag behind the drive, 0 to 2 pi
   double lost_j() const noexcept { return contact().lost; }        // in the sample, per swing
   double peak_force_n() const noexcept { return contact().peak; }  // at the lowest point of the swing
@@ -84,7 +84,7 @@ class TapEnvelope {
   };
   // Place in the tables.
   struct Place {
-    std::size_t node = 0;
+    std::ptrdiff_t node = 0;
     double right = 0, up = 0;
     bool beyond = true;  // farther than the last column: no force
   };
@@ -95,6 +95,7 @@ class TapEnvelope {
   Swing contact() const noexcept;                                              // now
   void approach_rest(double gap_m, double angle) noexcept;
   void set_pace() noexcept;
+  void measure() noexcept;  // the amplitude of u and v
 
   // Numbers of a step that no swing changes.
   struct Pace {
@@ -106,14 +107,14 @@ class TapEnvelope {
 
   std::shared_ptr<const DrivenLever> lever_;
   double contact_m_ = 0;
-  double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0;
-  std::size_t columns_ = 0;
+  double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0, last_column_ = 0;
+  std::ptrdiff_t columns_ = 0;
   Pace pace_;
   std::shared_ptr<const Tables> tables_;    // null for a low quality factor
   std::shared_ptr<const TapTable> rests_;   // null for a high one
   bool repelled_ = false;                   // branch of rests_
   double free_cosine_ = 0, free_sine_ = 1;  // cosine and sine of the free phase
-  double u_ = 0, v_ = 0;
+  double u_ = 0, v_ = 0, amplitude_ = 0;
   double gap_m_ = 0;  // gap of the newest swing
 };
 

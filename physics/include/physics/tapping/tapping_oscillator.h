@@ -56,6 +56,9 @@ class TappingOscillator {
   // Integrates one swing and returns it.
   DirectSwing swing() noexcept;
 
+  // Integrates so many swings. Returns the point that place() begins with to go on from here.
+  TapState advance(int swings) noexcept;
+
   // Swings until the amplitude has changed by less than this share of A0 in 50 swings, or for 8 Q swings; returns the
   // mean of the last 16.
   DirectSwing settle(double settled = 1e-9) noexcept;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// States of a tapping lever by Newton's method on one swing of direct integration.
+#include "physics/tapping/swing_map.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/tapped_sample.h"
+#include "physics/tapping/tapping_oscillator.h"
+
+namespace afm::physics {
+namespace swing_map_test {
+
+using namespace literals;
+
+// A soft lever over a stiff contact that adheres: averages have its attractive state only.
+const TappedSample kSoft{
+    .k = 0.858385, .q = 273.884950, .a0_nm = 9.374816, .r_nm = 48.3545, .h_zj = 18.9712, .e_gpa = 91.647};
+constexpr Length kSoftHeight{7.7119179938321576e-9};
+
+std::vector<TapState> averaged_at(const TappedSample& sample, Length z) {
+  AveragedFlow flow(sample.surface(), sample.lever());
+  std::vector<TapState> states;
+  for (const RestingTap& tap : flow.resting_at(z)) states.push_back(tap.state);
+  return states;
+}
+
+TEST(SwingMap, HasTheStatesOfAveragesAndOfTheSettledTip) {
+  const TappedSample sample;
+  SwingMap map(sample.surface(), sample.lever());
+  TappingOscillator tip(sample.surface(), sample.lever());
+  const std::vector<TapState> averaged = averaged_at(sample, 17.4149_nm);
+  ASSERT_EQ(averaged.size(), 3U);
+  for (const TapState& state : {averaged[0], averaged[2]}) {
+    const auto rest = map.rest_near({state.amplitude + 0.05_nm, state.phase + 0.02}, 17.4149_nm);
+    ASSERT_TRUE(rest);
+    tip.place(17.4149_nm, state);
+    const TapState settled = tip.settle().state;
+    EXPECT_NEAR(nm_of(rest->state.amplitude), nm_of(settled.amplitude), 2e-3);
+    EXPECT_NEAR(degrees_of(rest->state.phase), degrees_of(settled.phase), 0.1);
+    EXPECT_NEAR(nm_of(rest->state.amplitude), nm_of(state.amplitude), 2e-2);
+  }
+  EXPECT_TRUE(map.stable_beside(averaged, 17.4149_nm).empty());
+}
+
+TEST(SwingMap, FindsTheRepulsiveStateOfASoftLeverThatAveragesLack) {
+  const std::vector<TapState> averaged = averaged_at(kSoft, kSoftHeight);
+  ASSERT_EQ(averaged.size(), 1U);
+  SwingMap map(kSoft.surface(), kSoft.lever());
+  const std::vector<DirectSwing> beside = map.stable_beside(averaged, kSoftHeight);
+  ASSERT_EQ(beside.size(), 1U);
+  // by direct integration with sixteen times the steps
+  EXPECT_NEAR(nm_of(beside[0].state.amplitude), 7.524536, 1e-4);
+  EXPECT_NEAR(degrees_of(beside[0].state.phase), 53.4237, 0.05);
+  EXPECT_GT(beside[0].averages.contact_share, 0.02);
+}
+
+}  // namespace swing_map_test
+}  // namespace afm::physics
