@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "haptics/felt_particles.h"
+#include "scene/shared/tip_blocks.h"
 #include "support/particles/gold_particles.h"
 
 namespace afm {

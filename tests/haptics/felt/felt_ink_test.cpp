@@ -18,6 +18,7 @@
 
 #include "felt/marking_hand.h"
 #include "haptics/device.h"
+#include "scene/shared/tip_blocks.h"
 #include "support/particles/ink_sample.h"
 
 namespace afm::haptics {

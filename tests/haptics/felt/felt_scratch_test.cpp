@@ -18,6 +18,7 @@
 #include "haptics/device.h"
 #include "haptics/safety.h"
 #include "physics/manipulation/marking.h"
+#include "scene/shared/tip_blocks.h"
 #include "support/deep.h"
 #include "support/particles/soft_sample.h"
 
