@@ -128,6 +128,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   // and by the other law
   ASSERT_TRUE(press("Insert", "setting: friction law area; Delete chooses the next")) << view.said();
   ASSERT_TRUE(press("Delete", "friction law amontons: in use")) << view.said();
+  ASSERT_TRUE(push(view, 0.018)) << view.said();
   xdotool("key Escape");
   ASSERT_EQ(view.ends(), 0) << view.said();
 

@@ -87,6 +87,7 @@ std::string drive_header(const TappingRun& run) {
   std::string text = fmt::format("# free_amplitude_m: {}\n# drive_Hz: {}\n# viscosity_Pa_s: {}\n# method: {}\n",
                                  lever.free_amplitude.si, (lever.ratio * lever.resonance).si, run.viscosity.si,
                                  name_of_method(run.method));
+  if (run.averages_lost_at) text += fmt::format("# averages_lost_at_m: {}\n", run.averages_lost_at->si);
   if (run.at) return text + fmt::format("# at_m: {}\n", run.at->si);
   text += path_header(run.path.plan);
   return run.path.speed ? text + fmt::format("# speed_m_per_s: {}\n", run.path.speed->si) : text;
@@ -242,6 +243,7 @@ nlohmann::ordered_json tapping_json(const TappingRun& run) {
   json result = base_json(run, "tapping");
   result["drive"] = drive_json(run);
   result["method"] = name_of_method(run.method);
+  if (run.averages_lost_at) result["averages_lost_at_m"] = run.averages_lost_at->si;
   if (run.at) {
     result["at_m"] = run.at->si;
     result["states"] = states_json(run);

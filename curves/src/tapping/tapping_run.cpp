@@ -139,6 +139,14 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
     run.path.speed = *speed;
   }
   run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method);
+  if (!run.curve.lost_at) return {};
+  run.averages_lost_at = run.curve.lost_at;
+  if (!options.method.empty()) {
+    return wrong_usage(fmt::format("--method averaged: no averages follow the swing at {}; take direct",
+                                   physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits)));
+  }
+  run.method = physics::TapMethod::Direct;
+  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method);
   return {};
 }
 

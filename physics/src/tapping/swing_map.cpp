@@ -76,7 +76,7 @@ std::optional<DirectSwing> SwingMap::rest_near(const TapState& point, Length z) 
 std::vector<SwingMap::Point> SwingMap::stable_points(Length z) {
   constexpr int kAmplitudes = 8, kPhases = 8, kRounds = 8;
   constexpr int kShares = 16;
-  constexpr double kLeastShare = 0.86, kShareStep = 0.0125;  // of the height
+  constexpr double kLeastShare = 0.86, kShareStep = 0.0125;  // shares of the height
   constexpr double kNear = 0.03, kSame = 1e-3;               // shares of the free amplitude
   const int swings = static_cast<int>(std::ceil(0.2 * tip_.lever().quality_factor));
   std::vector<Point> found;

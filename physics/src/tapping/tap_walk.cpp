@@ -10,6 +10,14 @@
 namespace afm::physics {
 namespace {
 
+// Whether a swing goes on as it was within this distance, so that there is no fold. The steps of the flow may have
+// turned the phase of one that does not feel them.
+bool same_swing_beside(const TapState& before, const TapState& after, Length distance) {
+  constexpr double kSamePhase = 0.02;  // rad
+  const double turned = std::remainder(after.phase - before.phase, 2.0 * std::numbers::pi);
+  return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(turned) < kSamePhase;
+}
+
 // From rest at one height to rest at another, along the branch as far as it goes. `follows`: the swing is known to rest
 // on a branch, before and after.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
@@ -37,6 +45,10 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     const TapState landed = flow.settle(state, beyond).state;
     TapState after = landed;
     flow.follow(after, fold);
+    if (!flow.is_as_felt() && same_swing_beside(state, after, Length(kBeyondFold))) {
+      curve.lost_at = fold;
+      return;
+    }
     add_tap_point(curve, flow.lever(), branch, fold, flow.describe(state, fold));
     add_tap_point(curve, flow.lever(), branch, fold, flow.describe(after, fold));
     curve.jumps.push_back({branch, fold, fold, fold, state, after});
@@ -128,6 +140,7 @@ void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& st
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
     if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, follows);
+    if (curve.lost_at) return;
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
   }
 }

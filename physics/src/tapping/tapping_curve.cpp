@@ -131,6 +131,7 @@ TappingCurve record_tapping_curve(const std::shared_ptr<const TapSurface>& surfa
   TapState state = flow.settle({lever.free_amplitude, lever.free_phase}, path.plan.from).state;
   for (const TapDirection& direction : directions) {
     path.speed ? walk_moving(flow, direction, *path.speed, state, curve) : walk_slowly(flow, direction, state, curve);
+    if (curve.lost_at) return curve;
   }
   add_loops(curve, lever);
   if (!path.speed) curve.islands = islands_of(flow, directions, curve);

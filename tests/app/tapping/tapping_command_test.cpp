@@ -107,6 +107,25 @@ void expect_state(const nlohmann::json& point, const std::string& state, double 
 }
 
 // Rows T42 and T45 of the cases.
+// A contact far stiffer than the lever, without adhesion: averages gave 207 jumps that direct integration has not
+TEST(TappingCommand, IntegratesDirectlyWhereNoAveragesFollowTheSwing) {
+  curves::ContactOptions contact;
+  contact.assets_dir = support::source("assets");
+  contact.material = "gold";
+  contact.model = "hertz";
+  contact.values = {{"spring-constant", "0.278N/m"}, {"resonance", "75kHz"}, {"quality-factor", "120"}};
+  curves::TappingChoice choice;
+  choice.mode = "tapping";
+  choice.numbers.free_amplitude = "3.24nm";
+  const curves::PathOptions path{.from = "3.4nm", .to = "2nm", .step = "0.1nm"};
+  const auto curve = nlohmann::json::parse(tapping_text(choice, contact, path, "json").value());
+  EXPECT_EQ(curve["method"], "direct");
+  EXPECT_NEAR(curve["averages_lost_at_m"].get<double>(), 3.25e-9, 0.02e-9);
+  EXPECT_TRUE(curve["jumps"].empty()) << curve["jumps"];
+  choice.numbers.method = "averaged";
+  EXPECT_THAT(refusal(choice, contact, path), HasSubstr("no averages follow the swing at 3.2"));
+}
+
 TEST(TappingSweep, MapsTheStatesOverFreeAmplitudeAndHeight) {
   const auto points = swept({"free-amplitude=10nm:20nm:2", "z=5nm:17.4149nm:2"});
   ASSERT_EQ(points.size(), 4U) << points;

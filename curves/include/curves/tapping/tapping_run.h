@@ -42,6 +42,7 @@ struct TappingRun {
   physics::DrivenLever lever;
   physics::Viscosity viscosity;
   physics::TapMethod method = physics::TapMethod::Averaged;
+  std::optional<physics::Length> averages_lost_at;  // height for which direct integration was taken in their place
   physics::TapPath path;
   physics::TappingCurve curve;
   std::optional<physics::Length> at;

@@ -104,7 +104,7 @@ class AveragedFlow {
   // Amount by which a swing misses sin^2 + cos^2 = 1 for the phase that would hold it: negative if the drive is
   // stronger than needed, zero at rest.
   double imbalance(double amplitude, double z) noexcept;
-  double imbalance_of(double amplitude) const noexcept;  // of the newest averages
+  double imbalance_of(double amplitude) const noexcept;  // imbalance of the newest averages
   // The imbalance of the swing with this lowest height.
   struct Sample {
     double lowest, imbalance;

@@ -56,6 +56,9 @@ struct TappingCurve {
   std::vector<TapIsland> islands;  // only if averaged
   Energy work_on_hand;             // by the mean force over the loop; positive: the drive feeds the hand
   Area reduction_loop;  // loop integral of A0 - A over Z: negative if a push by it takes energy from the hand
+  // Height at which Newton's method lost an averaged swing that goes on beyond it, as it may over a contact far stiffer
+  // than the lever. The curve ends there, without loops and islands; direct integration has no such place.
+  std::optional<Length> lost_at;
 };
 
 // Throws std::invalid_argument as sample_count() does, for averaging below its least Q, for a speed that is not
