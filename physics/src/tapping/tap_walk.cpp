@@ -18,15 +18,21 @@ bool same_swing_beside(const TapState& before, const TapState& after, Length dis
   return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(turned) < kSamePhase;
 }
 
-// From rest at one height to rest at another, along the branch as far as it goes. `follows`: the swing is known to rest
-// on a branch, before and after.
+// A walk in one direction.
+struct Walked {
+  bool follows = false;  // the swing is known to rest on a branch
+  int false_folds = 0;   // places that Newton's method did not pass, though the swing goes on beyond them
+};
+
+// From rest at one height to rest at another, along the branch as far as it goes.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
-                  bool& follows) {
+                  Walked& walked) {
+  constexpr int kMostFalseFolds = 4;     // more show that averages are no way to follow this swing
   constexpr double kFoldError = 1e-18;   // m
   constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
   const double way = to.si - from.si;
   TapState here = state;
-  const bool known = std::exchange(follows, false);
+  const bool known = std::exchange(walked.follows, false);
   if (!known && !flow.follow(here, from)) {  // not at rest: a swing that hovers where contact begins
     state = flow.settle(state, to).state;
     return;
@@ -45,13 +51,14 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     const TapState landed = flow.settle(state, beyond).state;
     TapState after = landed;
     flow.follow(after, fold);
-    if (!flow.is_as_felt() && same_swing_beside(state, after, Length(kBeyondFold))) {
+    if (flow.is_as_felt() || !same_swing_beside(state, after, Length(kBeyondFold))) {
+      add_tap_point(curve, flow.lever(), branch, fold, flow.describe(state, fold));
+      add_tap_point(curve, flow.lever(), branch, fold, flow.describe(after, fold));
+      curve.jumps.push_back({branch, fold, fold, fold, state, after});
+    } else if (++walked.false_folds > kMostFalseFolds) {
       curve.lost_at = fold;
       return;
     }
-    add_tap_point(curve, flow.lever(), branch, fold, flow.describe(state, fold));
-    add_tap_point(curve, flow.lever(), branch, fold, flow.describe(after, fold));
-    curve.jumps.push_back({branch, fold, fold, fold, state, after});
     state = landed;
     at = beyond.si;
     step = to.si - at;
@@ -61,7 +68,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
       return;
     }
   }
-  follows = true;
+  walked.follows = true;
 }
 
 // The height at which the phase passes that of the free lever for the first time, with the states about one relaxation
@@ -136,10 +143,10 @@ void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch,
 void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
                  Length least) {
   const auto& [branch, heights] = direction;
-  bool follows = false;
+  Walked walked;
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
-    if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, follows);
+    if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, walked);
     if (curve.lost_at) return;
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
   }

@@ -296,7 +296,7 @@ void bracket(FoldCase& one) {
 TEST(TappingDeep, DirectIntegrationBracketsTheFolds) {
   RandomInteraction random(15);
   std::vector<FoldCase> cases{{TappedSample{}}};
-  for (int i = 1, count = deep() ? 16 : 1; i < count; ++i) {
+  for (int i = 1, count = deep() ? 24 : 1; i < count; ++i) {
     cases.push_back({TappedSample{.k = random.between(20.0, 50.0),
                                   .q = random.between(200.0, 500.0),
                                   .a0_nm = random.between(18.0, 30.0),
