@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "core/whole_file.h"
+#include "curves/curve_output.h"
 #include "curves/curve_series.h"
 #include "curves/image_output.h"
 #include "curves/recorded_curve.h"

@@ -12,6 +12,7 @@
 #include "scene/samples/level_choice.h"
 #include "scene/samples/particle_set.h"
 #include "scene/shared/particle_blocks.h"
+#include "scene/shared/shared_segment.h"
 #include "support/places.h"
 
 namespace push_values_test {

@@ -41,6 +41,18 @@ double gap_of(double column) noexcept {
   return std::copysign(kFinestGap * (std::ldexp(1.0 + octaves - whole, static_cast<int>(whole)) - 1.0), column);
 }
 
+// At most `most`, short beside the relaxation, the turn and the ringing, whose square times the amplitude is `ring`. Of
+// most steps it is clear without a root that all that is left is short enough.
+double step_of(double most, double slowest, double w, double ring, double amplitude) noexcept {
+  constexpr double kClear = 0.98;
+  const bool clear = slowest * most < kClear && std::abs(w) * most < kClear * kLargestTurn &&
+                     ring * most * most < kClear * kLargestRing * kLargestRing * amplitude;
+  if (clear) return most;
+  const double fastest =
+      std::max({slowest, std::abs(w) * (1.0 / kLargestTurn), std::sqrt(ring / amplitude) * (1.0 / kLargestRing)});
+  return std::min(most, 1.0 / fastest);
+}
+
 }  // namespace
 
 double TapEnvelope::longest_step(const DrivenLever& lever) noexcept {
@@ -192,16 +204,6 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
     const double steeper = by_stored * std::sqrt(more) / (more * more) * virial - (w - detuned);
     return std::abs(steeper * pace_.by_nudge * drive * u_);
   };
-  // Of most steps it is clear without a root that all that is left is short enough.
-  const auto step_of = [&](double most, double w, double ring, double amplitude) {
-    constexpr double kClear = 0.98;
-    const bool clear = pace_.slowest * most < kClear && std::abs(w) * most < kClear * kLargestTurn &&
-                       ring * most * most < kClear * kLargestRing * kLargestRing * amplitude;
-    if (clear) return most;
-    const double fastest = std::max(
-        {pace_.slowest, std::abs(w) * (1.0 / kLargestTurn), std::sqrt(ring / amplitude) * (1.0 / kLargestRing)});
-    return std::min(most, 1.0 / fastest);
-  };
   const double way_m = to_gap_m - from_gap_m;
   const double by_angle = angle > 0.0 ? 1.0 / angle : 0.0, by_steps = 1.0 / static_cast<double>(most_steps);
   double left = angle;
@@ -213,7 +215,7 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
     const double gap_m = gap_at(left, i);
     const double amplitude = std::max(lowest, amplitude_);
     const Rates first = rates(amplitude, gap_m);
-    const double step = step_of(left, first.w, ringing(amplitude, gap_m, first.w), amplitude);
+    const double step = step_of(left, pace_.slowest, first.w, ringing(amplitude, gap_m, first.w), amplitude);
     const double middle_m = 0.5 * (gap_m + gap_at(left - step, i + 1));
     const double half = 0.5 * step;
     const double middle_u = u_ + half * (-first.g * u_ - first.w * v_);
