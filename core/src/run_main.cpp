@@ -44,8 +44,8 @@ namespace {
               "raise the limit (ulimit -v)");
 }
 
-// A closed descriptor of stdin, stdout or stderr would be that of the next opened file, and the report or the log would
-// go into this file. A placeholder is as useless as a closed one.
+// If stdin, stdout or stderr is closed, the next opened file would get its descriptor, and the report or the log would
+// go into that file. /dev/null takes its number, opened so that reading or printing still fails.
 void take_standard_descriptors() {
   for (const int descriptor : {0, 1, 2}) {
     if (::fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;

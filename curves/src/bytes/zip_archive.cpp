@@ -93,7 +93,7 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::function<void(std::str
   unz_global_info64 about{};
   if (unzGoToFirstFile(archive_.get()) == UNZ_OK && unzGetFilePos64(archive_.get(), &at) == UNZ_OK &&
       unzGetGlobalInfo64(archive_.get(), &about) == UNZ_OK) {
-    // 0xffff stands for more entries than an old archive counts
+    // 0xffff: perhaps more entries than the field can count; the last header ends the walk
     const ZPOS64_T count = about.number_entry == 0xffff ? bytes.size() : about.number_entry;
     for (; at.num_of_file < count; ++at.num_of_file) {
       const std::string_view header = header_at(bytes, at.pos_in_zip_directory);
