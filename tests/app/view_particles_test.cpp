@@ -120,8 +120,6 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   ASSERT_TRUE(push(view, 0.026)) << view.said();
   ASSERT_TRUE(press("r", all_back)) << view.said();
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
-  ASSERT_TRUE(push(view, 0.018)) << view.said();
-  ASSERT_TRUE(press("r", all_back)) << view.said();
   // with the other tool: another session, whose spheres stick
   ASSERT_TRUE(press("0", "tool grip: the tip holds what it touched")) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
@@ -151,7 +149,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   }
   EXPECT_GE(pushed, 4U) << events;
   EXPECT_GE(taken_back, 3U) << "the fourth began a session" << events;
-  EXPECT_EQ(put_back, 2U) << events;
+  EXPECT_EQ(put_back, 1U) << events;
   EXPECT_GE(gripped, 1U) << events;
   EXPECT_GE(by_amontons, 1U) << events;
 }

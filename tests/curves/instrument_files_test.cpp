@@ -25,6 +25,13 @@ std::string error_of(std::string_view bytes, const CurveReading& reading = {}) {
   return curve.error().message;
 }
 
+// Read in this process, where a sanitizer sees each byte: for many bytes, a child each would take a minute.
+std::string error_here(std::string_view bytes) {
+  CurveReading here;
+  here.confined = false;
+  return error_of(bytes, here);
+}
+
 std::string big_endian_shorts(const std::vector<int>& values) {
   std::string bytes;
   for (const int value : values) {
@@ -180,7 +187,7 @@ TEST(JpkFile, TakesTheStageOfACellHesionWithoutAnotherHeight) {
 TEST(JpkFile, RefusesEveryCutAndAnEntryThatClaimsToBeHuge) {
   const std::string bytes = test::stored_zip(jpk_entries());
   for (std::size_t size = 4; size < bytes.size(); size += 97) {
-    EXPECT_THAT(error_of(std::string_view(bytes).substr(0, size)), HasSubstr("archive is damaged"));
+    EXPECT_THAT(error_here(std::string_view(bytes).substr(0, size)), HasSubstr("archive is damaged"));
   }
   EXPECT_THAT(error_of(test::stored_zip(jpk_entries(), 0xF0000000U)), HasSubstr("in its archive is"));
 }
@@ -265,7 +272,7 @@ TEST(IgorFile, RefusesATrailerThatIsCut) {
 TEST(IgorFile, RefusesOtherVersionsDamageAndEveryCut) {
   const std::string bytes = igor_cycle().bytes();
   for (std::size_t size = 2; size < bytes.size(); size += 31) {
-    EXPECT_THAT(error_of(std::string_view(bytes).substr(0, size)), HasSubstr("cannot read the curve"));
+    EXPECT_THAT(error_here(std::string_view(bytes).substr(0, size)), HasSubstr("cannot read the curve"));
   }
   EXPECT_THAT(error_of(igor_cycle().put<std::int16_t>(0, 2).bytes()),
               HasSubstr("an Igor wave of version 2, which holds one row"));
