@@ -36,6 +36,22 @@ double half_step(int value, std::optional<double> gamma) {
   return light_of((value + 0.5) / 255.0, gamma) - light_of(value / 255.0, gamma);
 }
 
+// Both of every value of 8 bits.
+class Levels {
+ public:
+  explicit Levels(std::optional<double> gamma) {
+    for (std::size_t value = 0; value < light_.size(); ++value) {
+      light_[value] = light_of(static_cast<double>(value) / 255.0, gamma);
+      half_step_[value] = half_step(static_cast<int>(value), gamma);
+    }
+  }
+  double light(int value) const { return light_.at(static_cast<std::size_t>(value)); }
+  double half(int value) const { return half_step_.at(static_cast<std::size_t>(value)); }
+
+ private:
+  std::array<double, 256> light_{}, half_step_{};
+};
+
 // One of the projectors on the wall, or the one that shows all of it.
 struct Part {
   unsigned begin_px, end_px;
@@ -121,6 +137,7 @@ double sum_differs(StereoMode mode, std::optional<double> gamma, const render::I
                    const std::vector<unsigned>& begins_px, double& worst) {
   const bool exact = !scene::anaglyph_matrices(mode) && !scene::traits_of(mode).squeezed;
   const Regions regions = regions_of(mode, whole);
+  const Levels levels(gamma);
   const unsigned squeeze = kWallPx / regions.size.x;
   std::size_t odd = 0, all = 0;
   for (unsigned eye = 0; eye < regions.count; ++eye) {
@@ -139,10 +156,9 @@ double sum_differs(StereoMode mode, std::optional<double> gamma, const render::I
           const auto shown = rgb_at(plain_and_blended[i][1], at.x, at.y);
           for (std::size_t c = 0; c < 3; ++c) {
             same = same && std::abs(plain.at(c) - one.at(c)) <= kFrustumSteps;
-            drawn_otherwise = std::max(
-                drawn_otherwise, std::abs(light_of(plain.at(c) / 255.0, gamma) - light_of(one.at(c) / 255.0, gamma)));
-            sum.at(c) += light_of(shown.at(c) / 255.0, gamma);
-            bound.at(c) += half_step(shown.at(c), gamma);
+            drawn_otherwise = std::max(drawn_otherwise, std::abs(levels.light(plain.at(c)) - levels.light(one.at(c))));
+            sum.at(c) += levels.light(shown.at(c));
+            bound.at(c) += levels.half(shown.at(c));
           }
         }
         ++all;
@@ -150,9 +166,9 @@ double sum_differs(StereoMode mode, std::optional<double> gamma, const render::I
         if (!same) continue;
         for (std::size_t c = 0; c < 3; ++c) {
           // what is filtered or mixed was not rounded before it was blended
-          const double own = exact ? 0.0 : 1.4 * half_step(one.at(c), gamma);
+          const double own = exact ? 0.0 : 1.4 * levels.half(one.at(c));
           const double allowed = bound.at(c) + own + drawn_otherwise + 2e-6;
-          worst = std::max(worst, std::abs(sum.at(c) - light_of(one.at(c) / 255.0, gamma)) / allowed);
+          worst = std::max(worst, std::abs(sum.at(c) - levels.light(one.at(c))) / allowed);
         }
       }
     }
