@@ -26,6 +26,9 @@ constexpr std::array kSignatures{
     Signature{"BZh"sv, 0, {"a bzip2 file", FileRole::Archive}},
     Signature{"7z\xBC\xAF\x27\x1C"sv, 0, {"a 7-Zip archive", FileRole::Archive}},
     Signature{"Rar!\x1A\x07"sv, 0, {"a RAR archive", FileRole::Archive}},
+    Signature{"[Content_Types].xml"sv, 30, {"a file of Excel or another Office program", FileRole::Spreadsheet}},
+    Signature{"mimetypeapplication/vnd.oasis.opendocument"sv, 30, {"a file of LibreOffice", FileRole::Spreadsheet}},
+    Signature{"\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1"sv, 0, {"a file of an old Office program", FileRole::Spreadsheet}},
     Signature{"PK\x03\x04"sv, 0, {"a ZIP archive, such as .usdz, .3mf or a download", FileRole::Archive}},
     Signature{"ustar"sv, 257, {"a tar archive", FileRole::Archive}},
     Signature{"\xFF\xFE"sv, 0, {"a text in UTF-16", FileRole::OtherText}},
@@ -73,6 +76,15 @@ constexpr std::array kSignatures{
     Signature{":NANONIS_VERSION:"sv, 0, {"a scan of Nanonis (.sxm)", FileRole::LabFile}},
     Signature{"WSxM file"sv, 0, {"a file of WSxM", FileRole::LabFile}},
     Signature{"S\0T\0i\0M\0a\0g\0e\0"sv, 2, {"a file of RHK (.sm4)", FileRole::LabFile}},
+    Signature{"IGOR\n"sv, 0, {"a text wave of Igor (.itx)", FileRole::LabFile}},
+    Signature{"IGOR\r"sv, 0, {"a text wave of Igor (.itx)", FileRole::LabFile}},
+    Signature{"DIGITAL SURF"sv, 0, {"a surface of Mountains (.sur)", FileRole::LabFile}},
+    Signature{"DSCOMPRESSED"sv, 0, {"a surface of Mountains (.sur)", FileRole::LabFile}},
+    Signature{"aISO-1.0"sv, 0, {"a surface of ISO 25178 (.sdf)", FileRole::LabFile}},
+    Signature{"bISO-1.0"sv, 0, {"a surface of ISO 25178 (.sdf)", FileRole::LabFile}},
+    Signature{"AliconaImaging"sv, 0, {"a surface of Alicona (.al3d)", FileRole::LabFile}},
+    Signature{"fileformat = bcr"sv, 0, {"a file of Image Metrology (.bcr)", FileRole::LabFile}},
+    Signature{"# File Format = ASCII"sv, 0, {"a text file of SPIP", FileRole::LabFile}},
     Signature{"MATLAB 5.0"sv, 0, {"a file of MATLAB", FileRole::LabFile}},
     Signature{"\x93NUMPY"sv, 0, {"an array of NumPy, without units", FileRole::LabFile}}};
 
@@ -167,6 +179,8 @@ std::string_view remedy_of(FileRole role) {
       return "download the file itself";
     case FileRole::OtherText:
       return "save it in UTF-8";
+    case FileRole::Spreadsheet:
+      return "save its table as .csv";
     case FileRole::Empty:
       return "copy or export it again";
     case FileRole::Picture:

@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/hurry_threads.h"
 #include "core/log.h"
 
 namespace afm::core {
@@ -91,6 +92,7 @@ void end_at_once(ExitCode code, std::string_view line) {
   const std::lock_guard lock(interruptions().undoing);
   undo_all();
   log_line(line);
+  hurry_threads();
   ::_exit(static_cast<int>(code));
 }
 

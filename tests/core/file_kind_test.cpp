@@ -19,6 +19,9 @@ TEST(FileKinds, AreToldByTheirBeginning) {
   EXPECT_EQ(name_of(std::string(257, '\0') + "ustar"), "a tar archive");
   EXPECT_EQ(name_of("\xEF\xBB\xBF\n <!doctype HTML>"), "an HTML page, probably in place of a download");
   EXPECT_EQ(name_of("# two\n# lines\nv 0 0 0\n"), "an OBJ file");
+  EXPECT_EQ(name_of("IGOR\nWAVES\tz"), "a text wave of Igor (.itx)");
+  EXPECT_EQ(name_of("PK\x03\x04" + std::string(26, '\0') + "[Content_Types].xml"),
+            "a file of Excel or another Office program");
   EXPECT_EQ(name_of(""), "an empty file");
   const std::string utf16(
       "h\0e\0i\0g\0h\0t\0 \0f\0o\0r\0c\0e\0\n\0"
@@ -42,6 +45,7 @@ TEST(FileKinds, ABinaryStlIsToldByItsSize) {
 
 TEST(FileKinds, HaveARemedyWhoeverReadsThem) {
   EXPECT_EQ(remedy_of(file_kind("Rar!\x1A\x07", 6)->role), "unpack it first");
+  EXPECT_EQ(remedy_of(file_kind("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", 8)->role), "save its table as .csv");
   EXPECT_EQ(remedy_of(file_kind("%PDF-1.7", 8)->role), "");
 }
 

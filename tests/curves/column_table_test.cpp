@@ -158,7 +158,7 @@ TEST(ColumnTable, TakesSegmentTimeAndColumnsThatAreNotRead) {
 
 TEST(ColumnTable, RefusesWhatItDoesNotUnderstand) {
   const CurveReading two = columns("height:um force:nN");
-  EXPECT_THAT(refusal("", two), HasSubstr("no line has 2 columns with numbers"));
+  EXPECT_THAT(refusal("", two), HasSubstr("it is an empty file; copy or export it again"));
   EXPECT_THAT(refusal("only words\nand more\n", two), HasSubstr("no line has 2 columns with numbers"));
   EXPECT_THAT(refusal(table("\t") + "broken\tline\n", two), HasSubstr("line 30: column 1 is \"broken\""));
   EXPECT_THAT(refusal(table("\t") + "1.0\n", two), HasSubstr("line 30 has 1 columns, and --columns names 2"));
@@ -326,7 +326,7 @@ TEST(ColumnTable, SaysWhyNoLineFits) {
                                   "1\0\t\0002\0\n\0",
                                   10),
                       two),
-              HasSubstr("save it as UTF-8"));
+              HasSubstr("it is a text in UTF-16; save it in UTF-8"));
 }
 
 TEST(TableColumns, AreNamedWithTheirUnits) {

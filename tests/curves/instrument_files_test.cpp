@@ -136,6 +136,8 @@ TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
                           "channel.vDeflection.conversion-set.conversion.distance.base-calibration-slot=force\n"),
               HasSubstr("its conversions lead nowhere"));
   EXPECT_THAT(error_of(test::stored_zip({{"a.txt", "text"}})), HasSubstr("a zip archive, but not one of JPK's"));
+  EXPECT_THAT(error_of(test::stored_zip({{"[Content_Types].xml", "<Types/>"}})),
+              HasSubstr("it is a file of Excel or another Office program; save its table as .csv"));
 }
 
 // Contact times of cells and ligands are as long as those of creep and relaxation, and in the same segments.

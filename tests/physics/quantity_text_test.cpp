@@ -140,6 +140,8 @@ TEST(QuantityText, ShowsAFittingPrefix) {
   EXPECT_EQ(format_quantity(Stiffness(0.1), kStiffnessUnits), "100 mN/m");
   EXPECT_EQ(format_quantity(Stiffness(HUGE_VAL), kStiffnessUnits), "inf N/m");
   EXPECT_EQ(format_quantity(Length(), kLengthUnits), "0 m");
+  EXPECT_EQ(format_quantity(Pressure(), kPressureUnits), "0 Pa");
+  EXPECT_EQ(format_quantity(Frequency(), kFrequencyUnits), "0 Hz");
   EXPECT_EQ(format_quantity(Length(1e-15), kLengthUnits), "0.001 pm");
 }
 

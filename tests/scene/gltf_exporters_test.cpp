@@ -196,6 +196,14 @@ TEST_F(Exporters, SaysThatNothingIsShownAndWhichSceneWasTaken) {
   document["meshes"][0]["primitives"][0]["attributes"].erase("POSITION");
   drawn(document);
   EXPECT_EQ(notes_.empty, "scene 0 has only meshes that cannot be drawn");
+  document = square_json();
+  document["nodes"][0]["scale"] = {0, 0, 0};
+  document["nodes"][1]["scale"] = {0, 0, 0};
+  drawn(document);
+  EXPECT_EQ(notes_.empty, "scene 0 has only meshes without size");
+  document["nodes"][0]["scale"] = document["nodes"][1]["scale"] = {1, 0, 0};
+  drawn(document);
+  EXPECT_EQ(notes_.empty, "");
   drawn(json::parse(R"({"asset": {"version": "2.0"}, "bufferViews": [], "buffers": []})"));
   EXPECT_EQ(notes_.empty, "the file, which lists no scene, has no node with a mesh");
   drawn(square_json());

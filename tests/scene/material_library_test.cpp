@@ -181,7 +181,10 @@ TEST(MaterialFile, NamesTheKeyOfAWrongType) {
   EXPECT_THAT(refusal(changed("\"Mica\"", "7")), HasSubstr("line 3: material.title: must be text"));
   EXPECT_THAT(refusal(changed("{ value = \"50 nm\", source = \"a\" }", "50e-9")),
               HasSubstr("line 6: material.tip_radius: must be written { value"));
-  EXPECT_THAT(refusal(changed("\"50 nm\"", "50")), HasSubstr("material.tip_radius.value: must be text"));
+  EXPECT_THAT(
+      refusal(changed("\"50 nm\"", "50")),
+      HasSubstr("material.tip_radius: cannot read \"50\" as a length: it has no unit; write a number and one of the "
+                "units m, mm, um, nm, pm, in quotes"));
   EXPECT_THAT(refusal("material = 3\n"), HasSubstr("line 1: material: must be written [[material]]"));
   EXPECT_THAT(refusal("material = [3]\n"), HasSubstr("must be written [[material]]"));
 }

@@ -132,6 +132,12 @@ TEST(ProbeFile, NamesLineAndKeyOfWhatIsWrong) {
               HasSubstr("probe.length: is missing"));
   EXPECT_THAT(refusal(std::string(kOneProbe) + "lever_modulus = { value = \"1 GPa\", source = \"g\" }\n"),
               HasSubstr("has an effect only if no spring_constant is given"));
+  const std::string with_length = std::string(kOneProbe) + "length = { value = \"225 um\", source = \"g\" }\n";
+  EXPECT_TRUE(load_text(with_length).has_value());
+  for (const char* impossible : {"-225 um", "0 um", "225 mm"}) {
+    std::string text = with_length;
+    EXPECT_THAT(refusal(text.replace(text.find("225 um"), 6, impossible)), HasSubstr("probe.length: length "));
+  }
   EXPECT_THAT(refusal(std::string(kOneProbe) + kOneProbe), HasSubstr("\"mine\" is used twice"));
 }
 

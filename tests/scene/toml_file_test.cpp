@@ -61,6 +61,7 @@ TEST(TomlFile, NamesAFileInAnotherEncodingOrNoTextAtAll) {
   EXPECT_THAT(outcome("a = \"W\xE4nde\"\n"), HasSubstr("; save the file in UTF-8"));
   EXPECT_THAT(outcome("<!DOCTYPE html><html>"), HasSubstr("it is an HTML page"));
   EXPECT_THAT(outcome("\x1F\x8B\x08"), HasSubstr("it is a gzip file; unpack it first"));
+  EXPECT_THAT(outcome("%PDF-1.7"), HasSubstr("it is a PDF document; save it as plain text in UTF-8"));
   EXPECT_EQ(outcome("g = 1\n"), "read");
   EXPECT_EQ(outcome(""), "read");
 }

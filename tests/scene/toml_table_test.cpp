@@ -53,6 +53,8 @@ TEST(TomlTable, NamesLineKeyAndWhatWasExpected) {
       {"[1, 2]", [](const TomlTable& t) { t.point("key"); }, "must be three numbers [x, y, z] in metres"},
       {"[1, 0, 0, 1]", [](const TomlTable& t) { t.rotation("key"); }, "must be a unit quaternion [x, y, z, w]"},
       {"\"5 N\"", [](const TomlTable& t) { t.quantity("key", physics::kLengthUnits); }, "m, mm, um, nm, pm"},
+      {"0.05", [](const TomlTable& t) { t.quantity("key", physics::kLengthUnits); },
+       "\"0.05\" as a length: it has no unit"},
       {"\"six\"", [](const TomlTable& t) { t.one_of("key", kRows, &Row::word); }, "six is unknown; known are one, two"},
       {"3", [](const TomlTable& t) { t.table("key", "[key]"); }, "must be written [key]"},
       {"[]", [](const TomlTable& t) { t.tables("key"); }, "must be written [[key]]"},

@@ -304,5 +304,30 @@ TEST(WallDoubts, KnowAMeshThatLeavesTheProjectorDark) {
   EXPECT_THAT(doubts("wide.data"), IsEmpty());
 }
 
+TEST(WallNotes, NameEachViewerWithoutAPicture) {
+  Written wall;
+  wall.viewers = "[[viewer]]\nname = \"second\"\nipd = \"60 mm\"\nsweet_spot = [0.5, 1.6, 2]\n";
+  EXPECT_THAT(notes_of(wall.wall().value()),
+              ElementsAre("viewer \"second\": not used; every screen is drawn for the first viewer, \"guest\""));
+}
+
+// OpenCV gives homographies in pixels; 20 and 30 of them are then 20 and 30 widths of the projector.
+TEST(WallDoubts, NameAHomographyInPixelsAndTheOneThatWasMeant) {
+  const auto doubts = [](const std::string& numbers, const std::string& place) {
+    Written wall;
+    wall.more = "[[output]]\nname = \"beamer\"\nscreen = \"wall\"\nmode = \"mono\"\n" + place + "\nhomography = [" +
+                numbers + "]\n";
+    return wall.doubts();
+  };
+  const std::string desktop = "rect = [0, 0, 1600, 1200]";
+  EXPECT_THAT(doubts("0.9, 0.02, 40, 0.01, 0.95, 30, -1e-5, 0, 1", desktop),
+              ElementsAre(AllOf(HasSubstr("output \"beamer\": its homography puts 100 % of the picture outside"),
+                                HasSubstr("pixels, write [0.9, 0.015, 0.025, 0.0133333, 0.95, 0.025, -0.016, 0, 1]"))));
+  EXPECT_THAT(doubts("0.9, 0.015, 0.025, 0.0133333, 0.95, 0.025, -0.016, 0, 1", desktop), IsEmpty());
+  EXPECT_THAT(doubts("0.9, 0.02, 40, 0.01, 0.95, 30, -1e-5, 0, 1", "monitor = \"DP-1\""),
+              ElementsAre(AllOf(HasSubstr("100 %"), Not(HasSubstr("write")))));
+  EXPECT_THAT(doubts("0.5, 0, 0.25, 0, 0.5, 0.25, 0, 0, 1", desktop), IsEmpty());
+}
+
 }  // namespace wall_doubts_test
 }  // namespace afm::scene

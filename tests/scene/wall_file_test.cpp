@@ -210,6 +210,7 @@ TEST(WallFile, NamesLineAndKeyOfEveryMistakeInAnOutput) {
               both("output.homography", "mirrors"));
   EXPECT_THAT(error_of(with_outputs("mode = \"dual\"\neye = \"left\"", "mode = \"frame-packed-720p\"")),
               both("output.rect", "1280 x 1470"));
+  EXPECT_THAT(error_of(with("\"63 mm\"", "0.063")), both("viewer.ipd", "no unit; write a number and one of the units"));
   EXPECT_THAT(error_of("output = 3\n" + std::string(kGood)), both("output", "[[output]]"));
 }
 

@@ -114,5 +114,14 @@ TEST(PvxFile, WithThousandsOfNestedElementsIsRefused) {
   EXPECT_FALSE(load(deep + machine("a", "")).has_value());
 }
 
+TEST(PvxFaults, NameTheNumberAndTheOtherFormat) {
+  EXPECT_THAT(load("<EyeSeparation Value=\"65\"/>\n" + machine("a", "")).error().message,
+              HasSubstr("line 3: EyeSeparation.Value: is \"65\"; it must lie between 0.03 and 0.09, in metres"));
+  const support::ScratchFolder folder;
+  EXPECT_THAT(
+      load_wall(folder.write("wall.xml", "<?xml version=\"1.0\"?>\n<MPCDI profile=\"2d\"></MPCDI>\n")).error().message,
+      AllOf(HasSubstr("line 2: its root is <MPCDI>, not ParaView's <pvx>"), HasSubstr("wall file (TOML)")));
+}
+
 }  // namespace wall_pvx_test
 }  // namespace afm::scene

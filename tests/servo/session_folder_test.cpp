@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/session_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -40,7 +41,10 @@ TEST(SessionFolder, KeepsNothingOfASessionWithoutForce) {
   SessionFolder folder = SessionFolder::open(scratch.file("kept")).value();
   ASSERT_TRUE(folder.add(part(0, 100, scene::ServoState::Disarmed)));
   EXPECT_TRUE(std::filesystem::exists(scratch.file("kept/session-mica.afms")));  // file still growing
+  testing::internal::CaptureStderr();
   ASSERT_TRUE(folder.end());
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("not recorded: " + scratch.file("kept/session-mica.afms") + ", 0.1 s without force"));
   EXPECT_TRUE(std::filesystem::is_empty(scratch.file("kept")));
 }
 

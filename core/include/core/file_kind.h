@@ -19,6 +19,7 @@ enum class FileRole : std::uint8_t {
   Model,
   LabFile,
   Document,
+  Spreadsheet,
   Empty
 };
 

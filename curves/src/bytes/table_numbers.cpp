@@ -16,6 +16,7 @@
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "curves/recorded_curve.h"
+#include "curves/unread_kinds.h"
 
 namespace afm::curves {
 
@@ -246,9 +247,7 @@ class TableReader {
 }  // namespace
 
 TableNumbers table_numbers(std::string_view bytes, const TableColumns& columns) {
-  if (bytes.find('\0') != std::string_view::npos) {
-    throw CurveError("it is no plain text, or UTF-16; save it as UTF-8");
-  }
+  if (bytes.find('\0') != std::string_view::npos) refuse_no_text(bytes);
   TableReader reader(columns);
   std::string_view line;
   for (Lines lines(bytes); lines.next(line);) {
@@ -260,6 +259,7 @@ TableNumbers table_numbers(std::string_view bytes, const TableColumns& columns) 
     }
   }
   if (!reader.has_rows()) {
+    if (const std::string kind = unread_kind_of(bytes, bytes.size()); !kind.empty()) throw CurveError("it is " + kind);
     const std::string last = reader.heading().empty()
                                  ? std::string()
                                  : fmt::format("; its last line is \"{}\"", reader.heading().substr(0, 60));

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "bytes/text_table.h"
+#include "core/file_kind.h"
 #include "curves/curve_error.h"
+#include "curves/unread_kinds.h"
 #include "formats/jpk_segment.h"
 #include "formats/segments.h"
 
@@ -118,7 +120,11 @@ JpkArchive::JpkArchive(std::string_view bytes)
                }),
       is_map_(!folders_.empty()) {
   const bool has_header = archive_.holds("header.properties");
-  if (!is_map_ && !has_header) throw CurveError("it is a zip archive, but not one of JPK's");
+  if (!is_map_ && !has_header) {
+    const auto kind = core::file_kind(bytes.substr(0, core::kFileKindBytes), bytes.size());
+    if (kind && kind->role == core::FileRole::Spreadsheet) refuse_no_text(bytes);
+    throw CurveError("it is a zip archive, but not one of JPK's; unpack it first");
+  }
   if (!is_map_) folders_.push_back(0);
   std::sort(folders_.begin(), folders_.end());
   if (has_header) general_.add(archive_.entry("header.properties", kMostPropertyBytes));

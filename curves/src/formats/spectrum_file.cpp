@@ -177,7 +177,7 @@ void add_spectrum_row(const std::vector<std::string_view>& fields, const Spectru
 }
 
 Spectrum read_spectrum(std::string_view text, const SpectrumReading& reading) {
-  if (text.find('\0') != std::string_view::npos) throw CurveError("it is no plain text, or UTF-16; save it as UTF-8");
+  if (text.find('\0') != std::string_view::npos) refuse_no_text(text);
   std::optional<ColumnUnits> units;
   if (!reading.units.empty()) {
     units = units_in(reading.units);

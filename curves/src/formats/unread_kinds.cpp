@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include "core/file_kind.h"
+#include "curves/curve_error.h"
 
 namespace afm::curves {
 
@@ -12,6 +13,11 @@ std::string unread_kind_of(std::string_view beginning, std::uint64_t file_size) 
   if (!kind) return "";
   const std::string_view remedy = core::remedy_of(kind->role);
   return remedy.empty() ? fmt::format("{}, which is not read", kind->name) : fmt::format("{}; {}", kind->name, remedy);
+}
+
+void refuse_no_text(std::string_view bytes) {
+  const std::string kind = unread_kind_of(bytes, bytes.size());
+  throw CurveError("it is " + (kind.empty() ? "no plain text, or UTF-16; save it as UTF-8" : kind));
 }
 
 std::string_view without_byte_order_mark(std::string_view bytes) {

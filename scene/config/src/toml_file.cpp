@@ -30,6 +30,9 @@ std::string other_file(std::string_view text) {
   const auto kind = core::file_kind(text.substr(0, core::kFileKindBytes), text.size());
   if (!kind) return "";
   using core::FileRole;
+  if (kind->role == FileRole::Spreadsheet || kind->role == FileRole::Document) {
+    return fmt::format("it is {}; save it as plain text in UTF-8", kind->name);
+  }
   constexpr std::array kRoles{FileRole::Archive, FileRole::LfsPointer, FileRole::WebPage, FileRole::OtherText};
   if (std::find(kRoles.begin(), kRoles.end(), kind->role) == kRoles.end()) return "";
   return fmt::format("it is {}; {}", kind->name, core::remedy_of(kind->role));

@@ -14,6 +14,11 @@ std::string TomlTable::full(std::string_view key) const {
   return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
 }
 
+std::optional<std::string> TomlTable::bare_number(std::string_view key) const {
+  const toml::node& found = node(key);
+  return found.is_number() ? std::optional(fmt::format("{}", *found.value<double>())) : std::nullopt;
+}
+
 void TomlTable::allow_only(std::span<const std::string_view> keys, std::string_view what) const {
   for (const auto& [key, value] : *table_) {
     if (std::find(keys.begin(), keys.end(), key.str()) != keys.end()) continue;

@@ -27,6 +27,7 @@ constexpr double kUpright = 0.866;         // cosine of 30 degrees
 constexpr double kFacing = 0.26;           // cosine of 75 degrees between the lines of the eyes and of the screen
 constexpr double kBelowFloorM = 0.5;       // origin of a room at the height of a seat
 constexpr double kMostDark = 0.2;          // share of a projector outside its mesh
+constexpr double kMostLost = 0.2;          // share of a picture that a keystone puts outside the projector
 constexpr std::string_view kCheckUnit = "lengths are in metres: check the unit";
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 
@@ -258,6 +259,40 @@ void doubt_mesh(const Output& output, std::vector<std::string>& doubts) {
                                output.name, share * 100.0, fix));
 }
 
+// Share of the picture that a keystone puts outside the output.
+double lost_share(const glm::dmat3& output_from_picture) {
+  constexpr int kSteps = 24;
+  int lost = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const glm::dvec2 place((i % kSteps + 0.5) / kSteps, (i / kSteps + 0.5) / kSteps);
+    const glm::dvec3 image = output_from_picture * glm::dvec3(place, 1.0);
+    const glm::dvec2 shown = glm::dvec2(image) / image.z;
+    if (shown.x < 0.0 || shown.x > 1.0 || shown.y < 0.0 || shown.y > 1.0) ++lost;
+  }
+  return double(lost) / (kSteps * kSteps);
+}
+
+// A homography that was measured in pixels, as OpenCV gives it, puts the picture outside the projector.
+void doubt_keystone(const Output& output, std::vector<std::string>& doubts) {
+  const glm::dmat3 keystone = glm::inverse(output.picture_from_output);
+  const double lost = lost_share(keystone);
+  if (lost < kMostLost) return;
+  std::string fix = "it takes places in 0..1 to places in 0..1";
+  const glm::dvec2 size_px(output.rect.size_px);
+  if (size_px.x > 0.0 && size_px.y > 0.0) {
+    const glm::dmat3 px(size_px.x, 0, 0, 0, size_px.y, 0, 0, 0, 1);
+    const glm::dmat3 scaled = glm::inverse(px) * keystone * px;
+    if (lost_share(scaled) < kMostLost) {
+      const glm::dmat3 m = scaled / scaled[2][2];
+      fix += fmt::format(
+          "; if it was measured in pixels, write [{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, 1]",
+          m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2]);
+    }
+  }
+  doubts.push_back(fmt::format("output \"{}\": its homography puts {:.0f} % of the picture outside the projector: {}",
+                               output.name, lost * 100.0, fix));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of(const Wall& wall) {
@@ -276,7 +311,10 @@ std::vector<std::string> doubts_of(const Wall& wall) {
     doubt_turn(wall, viewer, doubts);
     doubt_floor(wall, viewer, doubts);
   }
-  for (const Output& output : wall.outputs) doubt_mesh(output, doubts);
+  for (const Output& output : wall.outputs) {
+    doubt_mesh(output, doubts);
+    doubt_keystone(output, doubts);
+  }
   return doubts;
 }
 

@@ -294,7 +294,14 @@ Wall read_wall(const TomlTable& root, const std::string& path) {
     check_pairs(wall.outputs, tables);
   }
   const std::vector<TomlTable> viewers = root.tables("viewer");
-  for (const TomlTable& table : viewers) wall.viewers.push_back(read_viewer(table));
+  for (const TomlTable& table : viewers) {
+    Viewer viewer = read_viewer(table);
+    if (!wall.viewers.empty()) {
+      wall.unused.push_back(fmt::format("viewer \"{}\": not used; every screen is drawn for the first viewer, \"{}\"",
+                                        viewer.name, wall.viewers.front().name));
+    }
+    wall.viewers.push_back(std::move(viewer));
+  }
   if (const auto fault = impossible_length(wall)) {
     if (fault->of_viewer) viewers[fault->index].refuse("sweet_spot", fault->what);
     root.tables("screen")[fault->index].refuse("lower_left", fault->what);

@@ -130,8 +130,9 @@ Machine read_machine(const pugi::xml_node& node, std::set<std::string>& names) {
 double read_separation(const pugi::xml_node& node, const char* attribute) {
   const std::vector<double> value = numbers_in(node.attribute(attribute).value());
   if (value.size() != 1 || value[0] < kSmallestIpdM || value[0] > kLargestIpdM) {
-    throw XmlFault{node.offset_debug(), fmt::format("{}.{}: must lie between {:g} and {:g} m", node.name(), attribute,
-                                                    kSmallestIpdM, kLargestIpdM)};
+    throw XmlFault{node.offset_debug(),
+                   fmt::format("{}.{}: is \"{}\"; it must lie between {:g} and {:g}, in metres", node.name(), attribute,
+                               node.attribute(attribute).value(), kSmallestIpdM, kLargestIpdM)};
   }
   return value[0];
 }
@@ -298,7 +299,14 @@ class Configuration {
 
 Wall read_wall(const pugi::xml_document& document, const std::function<std::size_t(std::ptrdiff_t)>& line_of) {
   const pugi::xml_node root = document.child("pvx");
-  if (!root) throw XmlFault{0, "its root is not <pvx>"};
+  if (!root) {
+    const pugi::xml_node other = document.document_element();
+    throw XmlFault{
+        other.offset_debug(),
+        fmt::format("its root is <{}>, not ParaView's <pvx>; of XML files only ParaView's are read: write its "
+                    "corners into a wall file (TOML), such as a copy of assets/walls/powerwall.toml",
+                    other.name())};
+  }
   Configuration configuration(root);
   Wall wall = configuration.wall();
   if (const auto fault = impossible_length(wall)) {

@@ -74,17 +74,15 @@ class ProbeReader {
 
   // The nominal spring constant, or the one computed from the geometry.
   void read_lever() {
-    if (table_.has("spring_constant")) {
-      entry_.spring_constant = values_.quantity("spring_constant", physics::kStiffnessUnits);
-      // read only for their sources
-      for (const char* key : {"length", "width", "thickness"}) values_.optional_quantity(key, physics::kLengthUnits);
-      for (const char* key : {"base_width", "arm_width", "lever_modulus", "lever_density"}) {
-        if (table_.has(key)) table_.refuse(key, "has an effect only if no spring_constant is given");
-      }
-      return;
-    }
+    const bool given = table_.has("spring_constant");
     try {
-      entry_.shape == "rectangular" ? read_rectangular_lever() : read_v_shaped_lever();
+      if (given) {
+        read_given_lever();
+      } else if (entry_.shape == "rectangular") {
+        read_rectangular_lever();
+      } else {
+        read_v_shaped_lever();
+      }
     } catch (const physics::UnphysicalValue& error) {
       const std::string& field = error.field();
       table_.refuse(field == "young_modulus" ? "lever_modulus"
@@ -92,8 +90,23 @@ class ProbeReader {
                                              : field,
                     error.what());
     }
+    if (given) return;
     values_.add_source({"spring_constant", physics::format_quantity(entry_.spring_constant, physics::kStiffnessUnits),
                         "calculated from the lever's geometry and modulus", true});
+  }
+
+  // The geometry is read for its sources alone, but must be possible.
+  void read_given_lever() {
+    entry_.spring_constant = values_.quantity("spring_constant", physics::kStiffnessUnits);
+    for (const char* key : {"base_width", "arm_width", "lever_modulus", "lever_density"}) {
+      if (table_.has(key)) table_.refuse(key, "has an effect only if no spring_constant is given");
+    }
+    const auto given = [&](std::string_view key) {
+      return values_.optional_quantity(key, physics::kLengthUnits).value_or(physics::Length(1e-6));
+    };
+    const physics::Length length = given("length"), width = given("width"), thickness = given("thickness");
+    physics::validate(
+        physics::RectangularLever{length, width, thickness, physics::Pressure(1e11), physics::Density(1e3)});
   }
 
   void read_rectangular_lever() {

@@ -26,12 +26,6 @@ void SourcedValues::remember_source(std::string_view key, std::string written) {
   sources_.push_back({std::string(key), std::move(written), pair.text("source"), estimated});
 }
 
-std::string SourcedValues::remember(std::string_view key) {
-  std::string written = pair_of(key).text("value");
-  remember_source(key, written);
-  return written;
-}
-
 double SourcedValues::number(std::string_view key) {
   const TomlTable pair = pair_of(key);
   const toml::node* const written = pair.has("value") ? &pair.node("value") : nullptr;

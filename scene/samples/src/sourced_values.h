@@ -23,9 +23,9 @@ class SourcedValues {
   template <class Q>
   Q quantity(std::string_view key, const physics::UnitList<Q>& units,
              physics::Infinity infinity = physics::Infinity::Refused) {
-    const std::string written = remember(key);
-    const auto parsed = physics::parse_quantity(written, units, infinity);
+    const auto parsed = pair_of(key).parsed_quantity("value", units, infinity);
     if (!parsed.value) table_.refuse(key, parsed.error);
+    remember_source(key, pair_of(key).text("value"));
     return *parsed.value;
   }
 
@@ -44,7 +44,6 @@ class SourcedValues {
  private:
   TomlTable pair_of(std::string_view key) const;
   void remember_source(std::string_view key, std::string written);
-  std::string remember(std::string_view key);
 
   const TomlTable& table_;
   std::vector<SourcedValue> sources_;

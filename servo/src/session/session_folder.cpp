@@ -48,13 +48,14 @@ core::Result<void> SessionFolder::end() {
   if (!growing_) return {};
   Growing ended = std::move(*growing_);
   growing_.reset();
+  const double seconds = static_cast<double>(ended.end_ns - ended.begin_ns) * 1e-9;
   if (!ended.had_force) {
     ::unlink(ended.writer.path().c_str());
+    core::log_line(fmt::format("not recorded: {}, {:.1f} s without force", ended.writer.path(), seconds));
     return {};
   }
   if (auto finished = ended.writer.finish(); !finished) return finished;
-  core::log_line(fmt::format("recorded: {}, {:.1f} s, {} events", ended.writer.path(),
-                             static_cast<double>(ended.end_ns - ended.begin_ns) * 1e-9, ended.events));
+  core::log_line(fmt::format("recorded: {}, {:.1f} s, {} events", ended.writer.path(), seconds, ended.events));
   return {};
 }
 

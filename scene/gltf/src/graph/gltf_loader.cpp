@@ -30,14 +30,36 @@ void add_note(std::vector<std::string>& notes, const std::string& what) {
   if (notes.size() < kMostNotes && std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
 }
 
+// A model all of whose vertices are at one place leaves the picture as empty as no model does; points do not.
+bool has_size(const Scene& scene, const Node& node) {
+  glm::dmat4 room_from_node = node.parent_from_node;
+  for (auto above = node.parent; above; above = scene.nodes[*above].parent) {
+    room_from_node = scene.nodes[*above].parent_from_node * room_from_node;
+  }
+  for (const Primitive& primitive : scene.meshes[*node.mesh].primitives) {
+    const auto place = [&](const Vertex& vertex) {
+      return glm::dvec3(room_from_node * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+    };
+    if (primitive.topology == Topology::Points) return true;
+    const auto elsewhere = [&](const Vertex& vertex) { return place(vertex) != place(primitive.vertices.front()); };
+    if (std::any_of(primitive.vertices.begin(), primitive.vertices.end(), elsewhere)) return true;
+  }
+  return false;
+}
+
 // Names the scene that was taken if nothing in it can be drawn.
 std::string why_empty(const tinygltf::Model& model, const Scene& scene) {
-  bool has_mesh = false;
+  bool has_mesh = false, has_primitive = false;
   for (const Node& node : scene.nodes) {
-    if (node.mesh && !scene.meshes[*node.mesh].primitives.empty()) return "";
-    has_mesh |= node.mesh.has_value();
+    if (!node.mesh) continue;
+    has_mesh = true;
+    if (scene.meshes[*node.mesh].primitives.empty()) continue;
+    has_primitive = true;
+    if (!scene.animations.empty() || has_size(scene, node)) return "";  // what moves may grow from nothing
   }
-  const std::string reason = has_mesh ? "has only meshes that cannot be drawn" : "has no node with a mesh";
+  const std::string reason = has_primitive ? "has only meshes without size"
+                             : has_mesh    ? "has only meshes that cannot be drawn"
+                                           : "has no node with a mesh";
   if (model.scenes.empty()) return "the file, which lists no scene, " + reason;
   const auto shown = static_cast<std::size_t>(std::max(0, model.defaultScene));
   const std::string& name = model.scenes[shown].name;

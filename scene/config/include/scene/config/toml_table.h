@@ -11,6 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -72,9 +73,18 @@ class TomlTable {
   template <class Q>
   Q quantity(std::string_view key, const physics::UnitList<Q>& units,
              physics::Infinity infinity = physics::Infinity::Refused) const {
-    const auto parsed = physics::parse_quantity(text(key), units, infinity);
+    const auto parsed = parsed_quantity(key, units, infinity);
     if (!parsed.value) refuse(key, parsed.error);
     return *parsed.value;
+  }
+  // The same without the refusal. The error for a number outside quotes names the units, too.
+  template <class Q>
+  physics::ParsedQuantity<Q> parsed_quantity(std::string_view key, const physics::UnitList<Q>& units,
+                                             physics::Infinity infinity) const {
+    const std::optional<std::string> bare = bare_number(key);
+    auto parsed = physics::parse_quantity(bare ? *bare : text(key), units, infinity);
+    if (bare) parsed = {std::nullopt, (parsed.value ? "write the number" : parsed.error) + ", in quotes"};
+    return parsed;
   }
 
   // The row whose word is the text.
@@ -102,6 +112,7 @@ class TomlTable {
 
  private:
   std::string full(std::string_view key) const;
+  std::optional<std::string> bare_number(std::string_view key) const;  // a number outside quotes, as written
 
   const toml::table* table_;
   std::string name_;
