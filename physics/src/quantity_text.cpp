@@ -122,13 +122,15 @@ std::variant<double, std::string> parse_si(std::string_view text, std::string_vi
 }
 
 std::string format_si(double si, std::span<const Unit> units, int digits) {
-  // the largest unit in which the rounded number is at least 1, or the smallest; the largest for zero
+  // the largest unit in which the rounded number is at least 1, or the smallest; for zero the one of SI
   const int precision = std::clamp(digits, 1, 17);
   const double rounds_to_one = 1.0 - 0.5 * std::pow(10.0, -precision);
   const Unit* chosen = nullptr;
   for (const Unit& unit : units) {
     if (!unit.shown) continue;
-    if (chosen == nullptr || (si != 0.0 && std::abs(si) * chosen->per_si < rounds_to_one)) chosen = &unit;
+    const bool too_large =
+        chosen != nullptr && (si == 0.0 ? chosen->per_si < 1.0 : std::abs(si) * chosen->per_si < rounds_to_one);
+    if (chosen == nullptr || too_large) chosen = &unit;
   }
   std::array<char, 64> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si * chosen->per_si,
