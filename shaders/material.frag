@@ -47,7 +47,7 @@ layout(set = AFM_SET_MATERIAL, binding = AFM_BINDING_TEXTURES) uniform sampler2D
 layout(location = 0) in vec3 room_position;
 layout(location = 1) centroid in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
-layout(location = 3) in vec3 front_shadow_place;
+layout(location = 3) centroid in vec4 front_shadow_place;
 layout(location = 4) in vec4 room_tangent;
 layout(location = 5) in vec4 texture_coordinates;
 layout(location = 6) flat in vec4 drawn_surface;  // as DrawBlock::surface
@@ -150,7 +150,7 @@ void main() {
   vec3 front = normalize(room_normal);
   float facing = gl_FrontFacing ? 1.0 : -1.0;  // a back has its front's normal reversed, bent or not
   vec3 normal = facing * front;
-  shadow_place = front_shadow_place;
+  shadow_place = front_shadow_place.xyz / front_shadow_place.w;
   if (enabled(AFM_FEATURE_DOUBLE_SIDED)) shadow_place = place_in_shadow_map(room_position, normal, drawn_surface.w);
   if (enabled(1u << kNormal)) {
     normal = facing * mapped_normal(front, AFM_TEXEL(kNormal).xyz, material.normal_scale.x, place_in(kNormal));

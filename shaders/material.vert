@@ -18,7 +18,7 @@ layout(location = 4) in vec4 coordinates;  // both sets
 layout(location = 0) out vec3 room_position;
 layout(location = 1) centroid out vec3 room_normal;
 layout(location = 2) out vec4 vertex_color;
-layout(location = 3) out vec3 shadow_place;
+layout(location = 3) centroid out vec4 shadow_place;  // w: see shadow_place.glsl
 layout(location = 4) out vec4 room_tangent;
 layout(location = 5) out vec4 texture_coordinates;
 layout(location = 6) flat out vec4 drawn_surface;
@@ -37,7 +37,7 @@ void main() {
   texture_coordinates = coordinates;
   drawn_surface = draw.surface;
   drawn_emissive = draw.emissive;
-  shadow_place = place_in_shadow_map(room_position, normalize(room_normal), draw.surface.w);
+  shadow_place = varying_place(room_position, normalize(room_normal), draw.surface.w);
   mat4 clip = view_clip_from_room();
   gl_Position = clip * vec4(room_position, 1.0);
   float pixels_per_metre = 0.5 * frame.punctual_count.z * frame.target_size.y * length(vec3(clip[0].y, clip[1].y, clip[2].y)) / gl_Position.w;

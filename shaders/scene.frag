@@ -15,17 +15,17 @@ layout(constant_id = AFM_CONSTANT_VARIANT) const uint kVariant = 0;
 
 layout(set = 0, binding = AFM_BINDING_SHADOW) uniform sampler2D shadow_map;
 
-layout(location = 0) in vec3 room_position;
+layout(location = 0) centroid in vec3 front_position;
 layout(location = 1) centroid in vec3 room_normal;
 layout(location = 2) in vec4 vertex_color;
-layout(location = 3) in vec3 front_shadow_place;
+layout(location = 3) centroid in vec4 front_shadow_place;
 layout(location = 4) flat in vec4 lobe;           // border, spread
 layout(location = 5) flat in vec4 drawn_surface;  // as DrawBlock::surface; z: 1 with an outline
 layout(location = 6) flat in vec4 drawn_emissive;
 
 layout(location = 0) out vec4 out_color;
 
-vec3 shadow_place;
+vec3 room_position, shadow_place;
 
 #include "key_light.glsl"
 #include "shadow_place.glsl"
@@ -35,6 +35,8 @@ vec3 shadow_place;
 const float kOutlineBegin = 0.12, kOutlineEnd = 0.48, kOutlineDepth = 0.85;
 
 void main() {
+  float whole = 1.0 / front_shadow_place.w;  // see shadow_place.glsl
+  room_position = whole * front_position;
   vec3 front = normalize(room_normal);
   vec3 normal = gl_FrontFacing ? front : -front;
   Surface s = surface_at(room_position, normal, vertex_color.rgb, drawn_surface);
@@ -43,7 +45,7 @@ void main() {
     shown = vertex_color.rgb + own_light(s, drawn_emissive);
   } else {
     bool has_back = (kVariant & AFM_FEATURE_DOUBLE_SIDED) != 0u;
-    shadow_place = has_back ? place_in_shadow_map(room_position, normal, drawn_surface.w) : front_shadow_place;
+    shadow_place = has_back ? place_in_shadow_map(room_position, normal, drawn_surface.w) : whole * front_shadow_place.xyz;
     float visible = key_light_visibility();
     if ((kVariant & AFM_FEATURE_FOG) != 0u) {
       visible = mix(1.0, visible, frame.light_direction.w) * past_cone(room_position);

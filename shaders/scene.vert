@@ -14,10 +14,12 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
 
-layout(location = 0) out vec3 room_position;
-layout(location = 1) centroid out vec3 room_normal;  // a thin triangle rarely covers the pixel's centre
+// centroid: a thin or grazing triangle rarely covers the pixel's centre, where its place in room and shadow map would be
+// far outside it
+layout(location = 0) centroid out vec3 room_position;
+layout(location = 1) centroid out vec3 room_normal;
 layout(location = 2) out vec4 vertex_color;
-layout(location = 3) out vec3 shadow_place;
+layout(location = 3) centroid out vec4 shadow_place;  // w: see shadow_place.glsl
 layout(location = 4) flat out vec4 lobe;  // border, spread
 layout(location = 5) flat out vec4 drawn_surface;  // as DrawBlock::surface; z: 1 with an outline
 layout(location = 6) flat out vec4 drawn_emissive;
@@ -29,7 +31,7 @@ void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   room_normal = normal_in_room(position, normal);
   vertex_color = color * draw.base_color;
-  shadow_place = place_in_shadow_map(room_position, normalize(room_normal), draw.surface.w);
+  shadow_place = varying_place(room_position, normalize(room_normal), draw.surface.w);
   Lobe its = lobe_of(draw.surface.y);
   lobe = vec4(its.border, its.spread);
   drawn_surface = vec4(draw.surface.xy, draw.bend.z, draw.surface.w);

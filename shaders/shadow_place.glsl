@@ -11,3 +11,10 @@ vec3 place_in_shadow_map(vec3 place, vec3 normal, float unshadowed) {
   // nothing is nearer to the light than depth 0
   return vec3(0.5 * clip.xy + 0.5, clip.z * (1.0 - unshadowed));
 }
+
+// The same at a vertex, for a centroid varying. `w` is 1, and the interpolated values are right once divided by the
+// interpolated w: lavapipe interpolates them for one place and divides by the depth of another, the pixel's centre.
+// From a uniform, so that no compiler removes it.
+vec4 varying_place(vec3 place, vec3 normal, float unshadowed) {
+  return vec4(place_in_shadow_map(place, normal, unshadowed), dot(frame.light_direction.xyz, frame.light_direction.xyz));
+}

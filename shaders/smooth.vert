@@ -19,11 +19,12 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
 
-layout(location = 0) out vec3 room_position;
-layout(location = 1) out vec3 shadow_place;
-layout(location = 2) out vec3 radiance_in_shadow;
-layout(location = 3) out vec3 radiance_in_light;
-layout(location = 4) out vec4 own;  // emitted light, and alpha
+// centroid: as in scene.vert
+layout(location = 0) centroid out vec3 room_position;
+layout(location = 1) centroid out vec4 shadow_place;  // w: see shadow_place.glsl
+layout(location = 2) centroid out vec3 radiance_in_shadow;
+layout(location = 3) centroid out vec3 radiance_in_light;
+layout(location = 4) centroid out vec4 own;  // emitted light, and alpha
 
 #include "placing.glsl"
 #include "shadow_place.glsl"
@@ -33,7 +34,7 @@ void main() {
   room_position = (draw.room_from_node * vec4(bent_position(position), 1.0)).xyz;
   vec3 room_normal = normalize(normal_in_room(position, normal));
   vec4 its_color = color * draw.base_color;
-  shadow_place = place_in_shadow_map(room_position, room_normal, draw.surface.w);
+  shadow_place = varying_place(room_position, room_normal, draw.surface.w);
   Surface s = surface_at(room_position, room_normal, its_color.rgb, draw.surface);
   Lobe lobe = lobe_of(s.roughness);
   radiance_in_shadow = radiance(s, lobe, 0.0);

@@ -17,7 +17,18 @@ namespace {
 
 constexpr double kDrawnHandM = 0.085;  // hand travel that is drawn as long as the stroke of a sample's cycle
 
+constexpr double kBelowWandM = 0.12;  // in layout metres
+
 }  // namespace
+
+glm::dvec3 mouse_grip_m(const exhibit::WallScene& scene) {
+  const exhibit::WallPlaces& places = scene.places();
+  glm::dvec3 grip_m = places.wand_grip_m();
+  if (scene.swatch_targets().size() < exhibit::kFrontSwatches) {
+    grip_m -= kBelowWandM * glm::dvec3(places.room_from_layout()[1]);
+  }
+  return grip_m;
+}
 
 ViewPointer::ViewPointer(const exhibit::Stage& stage, ViewPicture& picture, ViewPanels& panels, ServoSupervisor& servo,
                          ViewWand& wand)
@@ -26,7 +37,7 @@ ViewPointer::ViewPointer(const exhibit::Stage& stage, ViewPicture& picture, View
       panels_(panels),
       servo_(servo),
       view_wand_(wand),
-      mouse_(stage.screen, stage.wall_scene.places().wand_grip_m()),
+      mouse_(stage.screen, mouse_grip_m(stage.wall_scene)),
       swatches_(stage.wall_scene.swatch_targets()) {}
 
 void ViewPointer::follow(const glm::dvec2& cursor_px, bool dragging, std::int64_t now_ns) {

@@ -14,7 +14,8 @@
 
 namespace afm::exhibit {
 struct Stage;
-}
+class WallScene;
+}  // namespace afm::exhibit
 
 namespace afm::app {
 
@@ -22,6 +23,10 @@ class ServoSupervisor;
 class ViewPanels;
 class ViewPicture;
 class ViewWand;
+
+// Grip of the wand that is drawn for the mouse, in metres of the room: below the tab at the right, whose words it would
+// cover, unless the shelf's last swatch is there.
+glm::dvec3 mouse_grip_m(const exhibit::WallScene& scene);
 
 // Target of the wand or the mouse, whichever was used last. Main thread only.
 class ViewPointer {

@@ -132,7 +132,7 @@ std::vector<Part> tip_atoms() {
       const bool nitrogen = random_unit(column, row, 83) > 0.45;
       const double radius = nitrogen ? 0.85 * kRadius : kRadius;
       add_atom(surface, {x, y, kGap + rise + radius}, radius, Facing::Down,
-               nitrogen ? V3{0.16, 0.28, 0.75} : V3{0.80, 0.66, 0.42}, 2);
+               nitrogen ? V3{0.16, 0.28, 0.75} : V3{0.80, 0.66, 0.42}, {.around = 2, .rings = 3});
     }
   }
   return {{std::move(surface), {.name = "tip atoms", .roughness = 0.35, .vertex_colors = true}}};

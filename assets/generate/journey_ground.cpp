@@ -117,10 +117,19 @@ std::vector<Surface> rings(const Look& look) {
   return result;
 }
 
-// The viewer is at negative y, 2 to 3 nm from the contact.
-int halvings_at(double x, double y) {
-  const double away = std::sqrt(x * x + (y + 2.3 * kNm) * (y + 2.3 * kNm));
-  return away < 0.95 * kNm ? 3 : away < 2.6 * kNm ? 2 : away < 6.0 * kNm ? 1 : 0;
+// The viewer is at negative y, 2.3 nm from the contact at S = 9 and farther away before. An atom looks largest when it
+// leaves the picture: at the lower border, at 0.52 of the viewer's distance from the contact, or at a side.
+Roundness roundness_at(double x, double y) {
+  constexpr double kLastNm = 2.3, kLowerBorderNm = 1.2, kSide = 0.95;  // tangent of half the picture's angle
+  x /= kNm;
+  y /= kNm;
+  const double viewer = std::max({kLastNm, -kLastNm * y / kLowerBorderNm, std::abs(x) / kSide - y});
+  const double away = std::sqrt(x * x + (y + viewer) * (y + viewer));
+  const auto halvings = [away](double most, double more, double some) {
+    return away < most ? 3 : away < more ? 2 : away < some ? 1 : 0;
+  };
+  const int least = x * x + y * y < kNearReach * kNearReach / (kNm * kNm) ? 1 : 0;  // an outline shows a square
+  return {.around = std::max(least, halvings(1.4, 5.2, 6.0)), .rings = std::max(1, halvings(2.4, 6.0, 6.0))};
 }
 
 // Depth of an atom below its place: the farther from the contact, the fewer are out of the ground, and the lattice
@@ -151,10 +160,10 @@ Atoms mica_atoms() {
       const bool hole = (column % 2 != 0) && (row % 2 != 0);
       if (!hole) {
         add_atom(atoms.at(r), {x, y, -0.15 * kNm - sunk(r, column, row)}, 0.15 * kNm, Facing::Up, {0.72, 0.20, 0.15},
-                 halvings_at(x, y));
+                 roundness_at(x, y));
       } else if (random_unit(column, row, 91) > 0.5) {
         add_atom(atoms.at(r), {x, y, -0.13 * kNm - sunk(r, column, row)}, 0.19 * kNm, Facing::Up, {0.42, 0.22, 0.62},
-                 halvings_at(x, y));
+                 roundness_at(x, y));
       }
     }
   }
@@ -175,7 +184,7 @@ Atoms packed_atoms(double spacing, double disorder, const std::function<V3(doubl
       const double radius = 0.54 * spacing;
       const double sink = disorder * 0.2 * spacing * random_unit(column, row, 94) + sunk(r, column, row);
       add_atom(atoms.at(r), {x, y, -radius - sink}, radius, Facing::Up, color(random_unit(column, row, 95)),
-               halvings_at(x, y));
+               roundness_at(x, y));
     }
   }
   return atoms;

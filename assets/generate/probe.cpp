@@ -278,10 +278,10 @@ Surface tip_apex() { return from_apex(tip_cap(fine_shares())); }
 double tip_length() { return -apex_height(); }
 double tip_radius() { return kApexRadius; }
 
-void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, int halvings) {
+void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, Roundness roundness) {
   // rings from the pole to 112 degrees from it; the neighbours take the light from what lies low
-  const std::vector<V2> rings = arc({1, 0}, {-0.37460659341591201, 0.92718385456678742}, std::max(1, halvings));
-  const Outline around = circle(1, halvings);
+  const std::vector<V2> rings = arc({1, 0}, {-0.37460659341591201, 0.92718385456678742}, roundness.rings);
+  const Outline around = circle(1, roundness.around);
   const double side = facing == Facing::Up ? 1 : -1;
   const auto vertex = [&](V3 normal, double height) {
     return SurfaceVertex{center + normal * radius, normal, color * mix(0.12, 1, smooth_step(-0.5, 0.9, height))};

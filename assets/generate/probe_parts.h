@@ -19,8 +19,13 @@ Surface tip_apex();
 double tip_length();  // from the apex to the base
 double tip_radius();  // radius of the ball
 
+// Halvings of the quarters around an atom, and of the arc from its pole to its rim. An atom that is seen from the side
+// has the outline of that arc.
+struct Roundness {
+  int around, rings;
+};
+
 // The part of a ball that shows among others, more than half of it, on the side that `facing` says.
-// 4 x 2^halvings points around, in two rings at least.
-void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, int halvings);
+void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, Roundness roundness);
 
 }  // namespace afm::generate

@@ -79,7 +79,7 @@ TEST_F(ParticlesPanel, SaysThatATipWhichSticksHoldsOrDrags) {
 
 TEST_F(ParticlesPanel, NamesTheToolInUse) {
   scene::TipPush push = test::push_of(set_, 0, PushState::Slides);
-  const render::DataRow pushes{"Tool", "push", "the tip lets go of spheres"};
+  const render::DataRow pushes{"Tool", "push", "the tip lets go of spheres", true};
   EXPECT_EQ(row(panel(push), Phrase::ToolName), pushes);
   push.settings.tool = scene::PushTool::Push;
   EXPECT_EQ(row(panel(push), Phrase::ToolName), pushes);

@@ -45,7 +45,7 @@ TEST_F(PushSettings, OfTheSetAreNotListed) {
   EXPECT_EQ(row(own, "Gives at"), (render::DataRow{"Gives at", "0.253 nN", "by shear strength \u00d7 contact area"}));
   EXPECT_EQ(row(own, "(by another law)").value, "(3.53 nN)");
   EXPECT_EQ(row(own, "Gentle load"),
-            (render::DataRow{"Gentle load", "0.0679 nN", "a scan that presses harder pushes it"}));
+            (render::DataRow{"Gentle load", "0.0679 nN", "a scan that presses harder pushes it", true}));
   EXPECT_EQ(row(own, "Lever at least"),
             (render::DataRow{"Lever at least", "2.82 mN/m", "upwards, to push it; in use: 1 N/m"}));
 }
@@ -55,7 +55,7 @@ TEST_F(PushSettings, MoveFigureLawAndLimitsTogether) {
   EXPECT_EQ(row(amontons, "Gives at"),
             (render::DataRow{"Gives at", "3.53 nN", "by coefficient \u00d7 (load + adhesion)"}));
   EXPECT_EQ(row(amontons, "(by another law)"),
-            (render::DataRow{"(by another law)", "(0.253 nN)", "not used: shear strength \u00d7 contact area"}));
+            (render::DataRow{"(by another law)", "(0.253 nN)", "not used: shear strength \u00d7 contact area", true}));
   EXPECT_EQ(row(amontons, "Changed"), (render::DataRow{"Changed", "1", "Friction law amontons"}));
   EXPECT_NE(row(amontons, "Gentle load").value, row(own, "Gentle load").value);
   EXPECT_NE(row(amontons, "Lever at least").value, row(own, "Lever at least").value);

@@ -20,6 +20,7 @@
 
 #include "app/bench/render_subjects.h"
 #include "app/live/view_keys.h"
+#include "app/view/view_pointer.h"
 #include "core/whole_file.h"
 #include "exhibit/frame/calibration.h"
 #include "exhibit/frame/exhibit_setup.h"
@@ -186,6 +187,48 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
   EXPECT_GT(large.guidance_px, 1.3F * normal.guidance_px);
   EXPECT_GT(large.words_px, 1.2F * normal.words_px);
   EXPECT_GT(large.consent_px, 0.9F * normal.consent_px) << "it fills its panel already, and only the margins grow";
+}
+
+// The wand of the mouse covered the words of the tab above it.
+TEST(MouseGrip, IsSeenBelowTheTab) {
+  constexpr double kHandleM = 0.27;  // from the grip to the end, away from the target
+  ExhibitFiles files;
+  files.assets_dir = support::source("assets");
+  files.aspect = 16.0 / 9.0;
+  const auto stage = load_exhibit(files).value();
+  const WallScene& scene = stage.wall_scene;
+  const glm::dvec3 grip = app::mouse_grip_m(scene), eye = stage.eyes[0].eye_position_m;
+  for (const input::Target& target : scene.swatch_targets()) {
+    const glm::dvec3 end = grip - kHandleM * glm::normalize(target.center_m - grip);
+    for (const glm::dvec3& place : {grip, end}) {
+      const double on_wall_y = eye.y + (place.y - eye.y) * eye.z / (eye.z - place.z);
+      EXPECT_LT(on_wall_y, scene.places().parameter_tab().lower_left_m.y);
+      EXPECT_GT(on_wall_y, stage.screen.lower_left.y);
+    }
+  }
+}
+
+// The servo's line was so long that its letters were 0.6 times as high as those above, which filled half of theirs.
+TEST(Banner, SharesItsFactsBetweenTheTwoLowerLines) {
+  ExhibitFiles files;
+  files.assets_dir = support::source("assets");
+  files.aspect = 16.0 / 9.0;
+  const auto stage = load_exhibit(files).value();
+  Painter painter(2.0 * 1280 / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
+  const render::FrameState frame = app::wall_subject(stage, 64, app::WallMotion::Tip).value().frames.back();
+  const auto letters_px = [&](const char* scale) {
+    render::Banner banner;
+    banner.scale = scale;
+    return painter.paint(banner, frame.panels.banner.placement).letter_px;
+  };
+  const float whole = letters_px("lever: 1 m = 131 nm\nForce limit: 2 N");
+  const float shared = letters_px(
+      "sample and motion: 1 m = 209 nm     lever: 1 m = 131 nm     tip: 1 m = 37.5 nm     deflection x626 relative to "
+      "the lever\nScale of the hand: 0.5 mm/nm, 0.2 N/nN (fit: scaled to fit each sample)     Force limit: 2 N, 500 "
+      "N/s "
+      "(simulated hand)     Servo: 1000 Hz, real-time (scheduling latency p99 127 us, 29 of 13029 ticks missed)     "
+      "Picture: 50 % of width and height, samples per pixel: 1 (frame budget 60 ms)");
+  EXPECT_GT(shared, 0.8F * whole);
 }
 
 // Names and numbers that are read from the last row of a room: 10 minutes of arc from 10 m are 29 mm.

@@ -184,6 +184,16 @@ TEST_F(WallSceneTest, TheSwatchesAreSoFarApartThatTheRayCannotConfuseThem) {
   }
 }
 
+// The floor, which rises in front of the wall, hid the lower half.
+TEST_F(WallSceneTest, TheColourScaleOfHeightsIsSeenAboveTheFloor) {
+  const render::FrameState shown = frame({});
+  const glm::dvec3 foot = origin_of(shown, "height-bar");
+  EXPECT_GT(foot.y, origin_of(shown, "room").y);
+  const glm::dvec3 on_wall = viewer_ + (foot - viewer_) * viewer_.z / (viewer_.z - foot.z);
+  const render::PanelPlacement zero = scene_.places().height_bar_text(0.0);
+  EXPECT_NEAR(on_wall.y, zero.lower_left_m.y + 0.5 * zero.up_m.y, 1e-6) << "beside its number";
+}
+
 TEST_F(WallSceneTest, AMaterialWithoutModelsIsGreyAndNamedInTheLog) {
   scene::MaterialLibrary strange;
   strange.materials.push_back(materials_.materials[0]);

@@ -105,6 +105,9 @@ class ParticleRows {
     rows_.back().detail = true;
   }
 
+  // With an explanation, which is seen with the sources.
+  void add_explained(Phrase name, std::string value, Phrase why) { add_sourced(name, std::move(value), phrases_[why]); }
+
   // The clock while the task runs, the whole score once it is done.
   void add_task() {
     const scene::TaskScore& score = now_.score;
@@ -185,16 +188,16 @@ class ParticleRows {
                  : phrases_[Phrase::PushedNone]);
     add_tool();
     add_changed();
-    add(Phrase::PushNormal, force_text(Force(touched_ ? push.normal_n : 0.0), phrases_),
-        phrases_[Phrase::PushNormalOn]);
+    add_explained(Phrase::PushNormal, force_text(Force(touched_ ? push.normal_n : 0.0), phrases_),
+                  Phrase::PushNormalOn);
     const double lateral_n = touched_ ? std::hypot(push.lateral_n[0], push.lateral_n[1]) : 0.0;
-    add(Phrase::PushLateral, force_text(Force(lateral_n), phrases_), phrases_[Phrase::PushLateralOn]);
+    add_explained(Phrase::PushLateral, force_text(Force(lateral_n), phrases_), Phrase::PushLateralOn);
   }
 
   // Of spheres that a tip can hold, and lets go; if it holds them, the row of the pull at which it tears says so.
   void add_tool() {
     if (sticks() || physics::turns_flat(species()) || !(species().tip_adhesion.si > 0.0)) return;
-    add(Phrase::ToolName, phrases_[Phrase::ToolPush], phrases_[Phrase::ToolPushOf]);
+    add_explained(Phrase::ToolName, phrases_[Phrase::ToolPush], Phrase::ToolPushOf);
   }
 
   // Settings that a person has changed.
@@ -223,8 +226,8 @@ class ParticleRows {
     const ParticleLaw other = scene::other_law(kind.law);
     const Force other_threshold = physics::sliding_threshold(kind, other, Force(0.0));
     if (!(other_threshold.si > 0.0)) return;  // the file lacks its parameters
-    add(Phrase::PushOtherLaw, "(" + force_text(other_threshold, phrases_) + ")",
-        phrases_.text<Phrase::PushLawUnused>(formula_of(other, phrases_)));
+    add_sourced(Phrase::PushOtherLaw, "(" + force_text(other_threshold, phrases_) + ")",
+                phrases_.text<Phrase::PushLawUnused>(formula_of(other, phrases_)));
   }
 
   // Up to which load a scan is gentle, and how stiff a lever has to be; those of a plan replace them.
@@ -232,7 +235,7 @@ class ParticleRows {
     if (now_.limits == nullptr || plan_figures(now_)) return;
     const scene::PushLimits& limits = now_.limits->at(species_index());
     if (limits.gentle.si > 0.0) {
-      add(Phrase::GentleLoad, force_text(limits.gentle, phrases_), phrases_[Phrase::GentleLoadWhy]);
+      add_explained(Phrase::GentleLoad, force_text(limits.gentle, phrases_), Phrase::GentleLoadWhy);
     }
     if (!(limits.softest.si > 0.0) || !std::isfinite(limits.softest.si)) return;
     const physics::Stiffness lever = now_.set->setup.springs.normal;
@@ -287,8 +290,8 @@ class ParticleRows {
         phrases_.number(format_quantity(now_.set->setup.springs.lateral, physics::kStiffnessUnits, kDigits));
     add_sourced(Phrase::LeverSideways, lever, source_text(now_.set->sources, "lateral_spring", phrases_));
     if (const double softened = now_.push.softened_sideways; softened > kSoftened) {
-      add(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(factor_text(softened)),
-          phrases_[Phrase::LeverSoftenedWhy]);
+      add_explained(Phrase::LeverSoftened, phrases_.text<Phrase::TimesSofter>(factor_text(softened)),
+                    Phrase::LeverSoftenedWhy);
     }
   }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -33,6 +34,15 @@ double stroke_of_sample(double width_m, double stroke_m) {
   return std::clamp(stroke_m, width_m / kWidestSample, width_m / kNarrowestSample);
 }
 
+// Place of the colour scale of heights: seen beside its numbers, which are in the wall's plane, but so near to the eye
+// that the floor does not hide its lower part.
+dmat4 height_bar_place(double left, double floor_y, const dvec3& eye) {
+  constexpr double kAboveFloor = 0.01, kNearest = 0.25;  // share of the way to the eye
+  const dvec3 foot(left, kHeightBarBottom, 0.0);
+  const double nearer = std::clamp((floor_y + kAboveFloor - foot.y) / std::max(eye.y - foot.y, 0.1), 0.0, kNearest);
+  return glm::scale(glm::translate(dmat4(1.0), glm::mix(foot, eye, nearer)), dvec3(kHeightBarHeight * (1.0 - nearer)));
+}
+
 }  // namespace
 
 void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
@@ -48,8 +58,6 @@ void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
   journey_ = Journey(build, scene_, layout_);
   if (own.particles) particles_.emplace(*own.particles, build, scene_, sample_frame_);
   height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
-  scene_.nodes[height_bar_].parent_from_node = glm::scale(
-      glm::translate(dmat4(1.0), dvec3(places_.height_bar_x(), kHeightBarBottom, 0.0)), dvec3(kHeightBarHeight));
   build.part(relief_mesh(), "image", sample_frame_);
   relief_ = build.node("image/relief");
   if (own.force_volume) {
@@ -121,6 +129,8 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   // the body would veil swatches inside it
   const double last_swatch_z = w.places_.swatch(w.looks_.size() - 1, w.looks_.size()).z;
   w.instrument_.set_floor(floor_y, last_swatch_z - kSwatchBehind);
+  const dvec3 eye(glm::inverse(w.places_.room_from_layout()) * glm::dvec4(place.viewer_m, 1.0));
+  w.scene_.nodes[w.height_bar_].parent_from_node = height_bar_place(w.places_.height_bar_x(), floor_y, eye);
   return w;
 }
 

@@ -243,6 +243,64 @@ void paint_row(Canvas& canvas, const DataRow& row, std::string_view source, floa
   canvas.line({kMargin, top + pitch}, {right, top + pitch}, 1.5F, palette::kGrid);
 }
 
+constexpr Ink kNoteInk{TextStyle::Body, palette::kMuted, 0.0F};
+
+// The facts on the two lower lines of a banner: separated by a line break or two spaces or more.
+class Notes {
+ public:
+  Notes(const Canvas& canvas, std::string_view text, float scale)
+      : canvas_(&canvas), scale_(scale), gap_mm_(canvas.text_width_mm(kNoteInk.style, "     ", scale)) {
+    while (!text.empty() && count_ < notes_.size()) {
+      const std::size_t end = std::min({text.find('\n'), text.find("  "), text.size()});
+      if (end > 0) notes_[count_++] = text.substr(0, end);
+      first_line_ = end < text.size() && text[end] == '\n' ? count_ : first_line_;
+      text.remove_prefix(std::min(end + 1, text.size()));
+      text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+    }
+    if (first_line_ == 0) first_line_ = count_;
+  }
+
+  // Moves facts of the second line to the end of the first while that enlarges the smaller letters.
+  void balance(float first_room_mm, float second_room_mm) {
+    const auto smaller = [&] {
+      return std::min(fit(0, first_line_, first_room_mm), fit(first_line_, count_, second_room_mm));
+    };
+    for (float best = smaller(); first_line_ < count_; best = smaller()) {
+      ++first_line_;
+      if (smaller() > best) continue;
+      --first_line_;
+      return;
+    }
+  }
+
+  std::size_t first_line() const { return first_line_; }
+  std::size_t count() const { return count_; }
+
+  void paint(Canvas& canvas, glm::vec2 position, std::size_t from, std::size_t to, float room_mm) const {
+    const float fitted = fit(from, to, room_mm);
+    position.y += 0.5F * scale_ * (1.0F - fitted) * text_height_mm(kNoteInk.style);
+    for (; from < to; ++from) {
+      canvas.text(position, kNoteInk.style, kNoteInk.color, notes_[from], Align::Left, fitted * scale_);
+      position.x += fitted * (width_mm(from) + gap_mm_);
+    }
+  }
+
+ private:
+  float width_mm(std::size_t note) const { return canvas_->text_width_mm(kNoteInk.style, notes_[note], scale_); }
+
+  // Reduction of a line, so that no word is cut.
+  float fit(std::size_t from, std::size_t to, float room_mm) const {
+    float width = from < to ? -gap_mm_ : 0.0F;
+    for (; from < to; ++from) width += width_mm(from) + gap_mm_;
+    return std::min(1.0F, room_mm / std::max(width, 1.0F));
+  }
+
+  const Canvas* canvas_;
+  float scale_, gap_mm_;
+  std::array<std::string_view, 16> notes_;
+  std::size_t count_ = 0, first_line_ = 0;
+};
+
 }  // namespace
 
 void paint(Canvas& canvas, const DataPanel& panel) {
@@ -273,10 +331,8 @@ void paint(Canvas& canvas, const DataPanel& panel) {
 void paint(Canvas& canvas, const Banner& banner) {
   canvas.panel_background();
   // an optional second line of the scale
-  const std::size_t end = banner.scale.find('\n');
-  const std::string_view more =
-      end == std::string::npos ? std::string_view() : std::string_view(banner.scale).substr(end + 1);
-  const float third = more.empty() ? 0.0F : text_height_mm(TextStyle::Body) + 8.0F;
+  const bool two_lines = banner.scale.find('\n') != std::string::npos;
+  const float third = two_lines ? text_height_mm(TextStyle::Body) + 8.0F : 0.0F;
   const float content = text_height_mm(TextStyle::Guidance) + 16.0F + text_height_mm(TextStyle::Body) + third;
   const float top = std::max(12.0F, 0.5F * (canvas.size_mm().y - content));
   const float right = canvas.size_mm().x - kMargin;
@@ -305,12 +361,12 @@ void paint(Canvas& canvas, const Banner& banner) {
     canvas.text({end_mm, second + sink}, TextStyle::Body, palette::kOrange, banner.warning, Align::Right, fit * lower);
     warned = width + 70.0F;
   }
-  constexpr Ink kLower{TextStyle::Body, palette::kMuted, 0.0F};
+  Notes notes(canvas, banner.scale, lower);
   if (whole - warned > kLeastForScales * whole) {
-    shrunk_text(canvas, {kMargin, second}, kLower, std::string_view(banner.scale).substr(0, end), whole - warned,
-                lower);
+    notes.balance(whole - warned, two_lines ? whole : 0.0F);
+    notes.paint(canvas, {kMargin, second}, 0, notes.first_line(), whole - warned);
   }
-  if (!more.empty()) shrunk_text(canvas, {kMargin, second + lower * third}, kLower, more, whole, lower);
+  notes.paint(canvas, {kMargin, second + lower * third}, notes.first_line(), notes.count(), whole);
 }
 
 void paint(Canvas& canvas, const Label& label) {
