@@ -145,12 +145,6 @@ TEST(QuantityText, ShowsAFittingPrefix) {
   EXPECT_EQ(format_quantity(Length(1e-15), kLengthUnits), "0.001 pm");
 }
 
-TEST(QuantityText, ShowsZeroInTheUnitOfSi) {
-  EXPECT_EQ(format_quantity(Pressure(0.0), kPressureUnits), "0 Pa");
-  EXPECT_EQ(format_quantity(Frequency(0.0), kFrequencyUnits), "0 Hz");
-  EXPECT_EQ(format_quantity(Length(0.0), kLengthUnits), "0 m");
-}
-
 TEST(QuantityText, RoundsIntoTheNextPrefix) {
   EXPECT_EQ(format_quantity(Length(999.9e-9), kLengthUnits, 3), "1 um");
   EXPECT_EQ(format_quantity(Length(999.4e-9), kLengthUnits, 3), "999 nm");
