@@ -78,7 +78,7 @@ class Client:
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             self._socket.settimeout(timeout)
-            self._socket.connect(os.fspath(path))
+            _connect(self._socket, path, timeout)
         except BaseException:
             self._socket.close()
             raise
@@ -249,6 +249,19 @@ class Client:
         self.close()
 
 
+def _connect(to_server: socket.socket, path: _Path, timeout: float) -> None:
+    """Waits while so many clients do that the system takes no more."""
+    end = time.monotonic() + timeout
+    while True:
+        try:
+            to_server.connect(os.fspath(path))
+            return
+        except BlockingIOError:
+            if time.monotonic() > end:
+                raise TimeoutError(f"cannot connect to {os.fspath(path)} within {timeout:g} s: too many clients wait there") from None
+            time.sleep(0.01)
+
+
 def _unpacked(members: dict[str, Any]) -> Any:
     if len(members) == 1 and "base64" in members:
         return np.frombuffer(base64.b64decode(members["base64"]), "<f8")
@@ -275,6 +288,9 @@ def start(*, seed: int = 1, sample: Optional[_Path] = None, out: Optional[_Path]
     timeout: longest wait for an answer, s. Refused if the command refuses them."""
     program = pathlib.Path(__file__).parents[4] / "bin" / "touchafm"
     folder = tempfile.mkdtemp(prefix="touchafm-")
+    if len(os.fsencode(folder)) > 90:  # the system takes no longer path of a socket
+        shutil.rmtree(folder)
+        folder = tempfile.mkdtemp(prefix="touchafm-", dir="/tmp")
     path, messages = os.path.join(folder, "socket"), os.path.join(folder, "messages")
     command = [str(program), "serve", "--socket", path, "--seed", str(seed), "--once"]
     for option, value in (("--sample", sample), ("--out", out)):

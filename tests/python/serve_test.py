@@ -159,6 +159,14 @@ class Serve(unittest.TestCase):
                 second.get()
         self.assertEqual(self.afm.get()["material"], "mica")
 
+    def test_starts_where_temporary_files_have_long_paths(self):
+        folder = os.path.join(self.folder.name, "a" * 100)
+        os.mkdir(folder)
+        script = "from touchafm import serve\nwith serve.start() as afm: print(afm.get()['pixels'])"
+        done = subprocess.run([sys.executable, "-c", script], env={**os.environ, "TMPDIR": folder}, capture_output=True, text=True, check=False)
+        self.assertEqual((done.stdout, done.stderr), ("64\n", ""))
+        self.assertEqual(os.listdir(folder), [])
+
     def test_says_why_a_server_does_not_start(self):
         with self.assertRaisesRegex(serve.Refused, "no such folder"):
             serve.start(out=os.path.join(self.folder.name, "none"))
