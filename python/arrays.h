@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "python/unlocked.h"
+
 namespace afm::python {
 
 // Argument of a caller for an array: any shape, stride and real number. It is converted to float64 once. Texts, times,
@@ -72,11 +74,10 @@ pybind11::object each(const GivenArray& given, const Function& function) {
   double* out = result.mutable_data();
   constexpr std::size_t kUnwatched = 1'000'000;  // points between two looks for Ctrl-C
   for (std::size_t begin = 0; begin < count; begin += kUnwatched) {
-    {
-      const pybind11::gil_scoped_release free;
-      const std::size_t end = std::min(count, begin + kUnwatched);
-      for (std::size_t i = begin; i < end; ++i) out[i] = function(in[i]);
-    }
+    Unlocked unlocked;
+    const std::size_t end = std::min(count, begin + kUnwatched);
+    for (std::size_t i = begin; i < end; ++i) out[i] = function(in[i]);
+    unlocked.lock();
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
   }
   if (given.ndim() == 0) return pybind11::float_(*out);

@@ -21,6 +21,7 @@
 #include "python/errors.h"
 #include "python/long_work.h"
 #include "python/result_type.h"
+#include "python/unlocked.h"
 
 namespace afm::python {
 
@@ -93,11 +94,10 @@ Curve make_curve(const GivenArray& z, const GivenArray& force, const GivenArray&
     refuse(fmt::format("a curve has at most {} points, not {}", curves::kMostCurvePoints, count));
   }
   Curve curve{name, {}};
-  {
-    const std::span points(z.data(), count), forces(force.data(), count), approaches(approach.data(), count);
-    const py::gil_scoped_release free;
-    curve.recorded.points = points_from(points, forces, approaches);
-  }
+  const std::span points(z.data(), count), forces(force.data(), count), approaches(approach.data(), count);
+  Unlocked unlocked;
+  curve.recorded.points = points_from(points, forces, approaches);
+  unlocked.lock();
   if (spring_constant) {
     if (!(*spring_constant > 0.0 && std::isfinite(*spring_constant)))
       refuse(fmt::format("spring_constant: {} is not positive", *spring_constant));

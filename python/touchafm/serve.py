@@ -59,7 +59,10 @@ class _Lines:
         searched = 0
         while (end := self._bytes.find(b"\n", searched)) < 0:
             searched = len(self._bytes)
-            more = self._source.recv(1 << 18)
+            try:
+                more = self._source.recv(1 << 18)
+            except ConnectionResetError:
+                more = b""
             if not more:
                 return b""
             self._bytes += more
@@ -105,6 +108,8 @@ class Client:
     def request(self, do: str, *, on_line: Optional[_OnLine] = None, **members: Any) -> dict[str, Any]:
         """The answer to any request as a dict, whose lists of numbers are arrays: they travel as bytes, which takes less time.
         on_line is called with each line of a scan as it comes; False stops the scan."""
+        if self._socket.fileno() < 0:
+            raise ConnectionError(f"cannot {do}: this client is closed; connect() or start() another")
         if self._packs is None and do != "hello":
             self._packs = "base64" in self.request("hello").get("arrays", ())
         if self._packs:
@@ -114,7 +119,8 @@ class Client:
             text = json.dumps({"id": self._number, "do": do, **members}, default=_plain, allow_nan=False)
         except ValueError:
             raise ValueError(f"{do}: one of the numbers is not finite") from None
-        self._socket.sendall(text.encode() + b"\n")
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # the server's last words say why
+            self._socket.sendall(text.encode() + b"\n")
         stopping = False
         try:
             while "line" in (answer := self._answer(do)):

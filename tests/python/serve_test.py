@@ -152,6 +152,15 @@ class Serve(unittest.TestCase):
         with self.assertRaisesRegex(OSError, "cannot connect to n{200}: .*too long"):
             serve.connect("n" * 200)
 
+    def test_says_why_a_server_hangs_up(self):
+        with self.assertRaisesRegex(serve.Refused, "more than 1 MiB"):
+            self.afm.request("hello", seed="7" * (2 << 20))
+        with self.assertRaisesRegex(ConnectionError, "the server left while it was asked to"):
+            self.afm.get()
+        self.afm.close()
+        with self.assertRaisesRegex(ConnectionError, "cannot get: this client is closed"):
+            self.afm.get()
+
     def test_waits_for_the_client_before(self):
         path = os.path.join(self.afm._folder, "socket")
         with serve.connect(path, timeout=0.5) as second:
