@@ -7,13 +7,41 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <optional>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "python/unlocked.h"
 
 namespace afm::python {
 
-// Argument of a caller for an array: any shape, stride and type of number. It is converted to float64 once.
-using GivenArray = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
+// Argument of a caller for an array: any shape, stride and real number. It is converted to float64 once. Texts, times,
+// complex numbers and None are refused as of a wrong type, though numpy would convert them.
+class GivenArray : public pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast> {
+ public:
+  using array_t::array_t;
+
+  // Nothing for what holds no real numbers.
+  static std::optional<GivenArray> of(pybind11::handle given) {
+    const auto any = pybind11::array::ensure(given);
+    if (!any || !has_numbers(any)) return std::nullopt;
+    pybind11::object numbers = ensure(any);
+    if (!numbers) return std::nullopt;
+    return GivenArray(std::move(numbers));
+  }
+
+ private:
+  static bool has_numbers(const pybind11::array& given) {
+    const char kind = given.dtype().kind();
+    if (kind != 'O') return std::string_view("biuf").find(kind) != std::string_view::npos;
+    for (const auto& each : given.attr("flat")) {
+      if (PyNumber_Check(each.ptr()) == 0) return false;
+    }
+    return true;
+  }
+};
 
 // Read-only view of one member of each row: no copy. `owner` keeps the rows alive.
 template <class Row, class Member>
@@ -46,11 +74,10 @@ pybind11::object each(const GivenArray& given, const Function& function) {
   double* out = result.mutable_data();
   constexpr std::size_t kUnwatched = 1'000'000;  // points between two looks for Ctrl-C
   for (std::size_t begin = 0; begin < count; begin += kUnwatched) {
-    {
-      const pybind11::gil_scoped_release free;
-      const std::size_t end = std::min(count, begin + kUnwatched);
-      for (std::size_t i = begin; i < end; ++i) out[i] = function(in[i]);
-    }
+    Unlocked unlocked;
+    const std::size_t end = std::min(count, begin + kUnwatched);
+    for (std::size_t i = begin; i < end; ++i) out[i] = function(in[i]);
+    unlocked.lock();
     if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
   }
   if (given.ndim() == 0) return pybind11::float_(*out);
@@ -58,3 +85,19 @@ pybind11::object each(const GivenArray& given, const Function& function) {
 }
 
 }  // namespace afm::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<afm::python::GivenArray> {
+  PYBIND11_TYPE_CASTER(afm::python::GivenArray, const_name("numpy.ndarray[numpy.float64]"));
+
+  bool load(handle given, bool) {
+    auto numbers = afm::python::GivenArray::of(given);
+    if (!numbers) return false;
+    value = std::move(*numbers);
+    return true;
+  }
+};
+
+}  // namespace pybind11::detail

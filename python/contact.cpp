@@ -209,6 +209,13 @@ void add_law_class(py::module_& module) {
   law.def_readonly("name", &Law::name, "Name of the law: \"jkr\".");
   law.def_readonly("contact", &Law::contact, "Contact with this law.");
   law.def_property_readonly("figures", [](const Law& self) { return self.tables->figures; }, "Jumps and energies.");
+  law.def(py::pickle([](const Law& self) { return py::make_tuple(self.contact); },
+                     [](const py::tuple& state) {
+                       if (state.size() != 1)
+                         throw py::value_error("this is no pickled law of this version of touchafm");
+                       const auto& contact = state[0].cast<const Contact&>();
+                       return make_law(contact.options().model, contact);
+                     }));
   law.def("__repr__", [](const Law& self) { return fmt::format("<touchafm.Law {}>", self.name); });
 }
 

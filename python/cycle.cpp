@@ -159,9 +159,10 @@ Sweep make_sweep(const Contact& contact, const std::optional<std::string>& law, 
     if (!curves::changes_force(*parameter, sweep.setup.model)) {
       refuse(fmt::format("--{} has no effect on model {}; remove it", option, sweep.setup.model.text));
     }
-    const auto values = value.cast<GivenArray>();
-    curves::SweepAxis axis{.parameter = parameter, .count = static_cast<std::uint64_t>(values.size())};
-    axis.values.assign(values.data(), values.data() + values.size());
+    const auto values = GivenArray::of(value);
+    if (!values) not_numbers(keyword, "numbers", value);
+    curves::SweepAxis axis{.parameter = parameter, .count = static_cast<std::uint64_t>(values->size())};
+    axis.values.assign(values->data(), values->data() + values->size());
     if (axis.values.empty()) refuse(fmt::format("{}: the sweep has no value", keyword));
     sweep.axes.push_back(std::move(axis));
   }

@@ -20,8 +20,8 @@ void add_errors(py::module_& module) {
       if (thrown) std::rethrow_exception(std::move(thrown));
     } catch (const Refusal& refusal) {
       const bool usage = refusal.category() == core::ErrorCategory::WrongUsage;
-      // a name may hold bytes that are no UTF-8
-      PyErr_SetString(usage ? PyExc_ValueError : file_error.ptr(), core::printable(refusal.what()).c_str());
+      // a name may hold bytes that are no UTF-8, or the byte 0
+      PyErr_SetString(usage ? PyExc_ValueError : file_error.ptr(), core::printable(refusal.message()).c_str());
     }
   });
 }

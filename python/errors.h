@@ -15,6 +15,7 @@ class Refusal : public std::exception {
  public:
   explicit Refusal(core::Error error) : error_(std::move(error)) {}
   const char* what() const noexcept override { return error_.message.c_str(); }
+  const std::string& message() const { return error_.message; }
   core::ErrorCategory category() const { return error_.category; }
 
  private:

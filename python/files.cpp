@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,10 +17,11 @@
 #include "curves/image_file.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
-#include "python/curve.h"
+#include "python/curve_state.h"
 #include "python/errors.h"
 #include "python/long_work.h"
 #include "python/result_type.h"
+#include "python/unlocked.h"
 
 namespace afm::python {
 
@@ -77,28 +79,25 @@ std::vector<Curve> read(const std::filesystem::path& path, std::optional<double>
                                 const std::stop_token& stop) { return read_all(path, reading, stop); }));
 }
 
-Curve make_curve(const GivenArray& z, const GivenArray& force, const py::array_t<bool, py::array::forcecast>& approach,
+// "(3, 2)", as numpy prints it.
+std::string shape_of(const GivenArray& given) { return py::str(given.attr("shape")); }
+
+Curve make_curve(const GivenArray& z, const GivenArray& force, const GivenArray& approach,
                  std::optional<double> spring_constant, const std::string& name) {
   const auto count = static_cast<std::size_t>(z.size());
   if (z.ndim() != 1 || force.ndim() != 1 || approach.ndim() != 1 || force.size() != z.size() ||
       approach.size() != z.size()) {
-    refuse(fmt::format("z, force and approach are one-dimensional and equally long, not {}, {} and {} points", z.size(),
-                       force.size(), approach.size()));
+    refuse(fmt::format("z, force and approach are one-dimensional and equally long; their shapes are {}, {} and {}",
+                       shape_of(z), shape_of(force), shape_of(approach)));
   }
   if (count > curves::kMostCurvePoints) {
     refuse(fmt::format("a curve has at most {} points, not {}", curves::kMostCurvePoints, count));
   }
   Curve curve{name, {}};
-  curve.recorded.points.reserve(count);
-  for (py::ssize_t i = 0; i < z.size(); ++i) {
-    const bool is_approach = approach.at(i);
-    if (!std::isfinite(z.at(i)) || !std::isfinite(force.at(i))) refuse(fmt::format("point {} is not finite", i));
-    if (is_approach && !curve.recorded.points.empty() &&
-        curve.recorded.points.back().branch == physics::Branch::Retract)
-      refuse(fmt::format("point {} is of the approach and after the retract", i));
-    curve.recorded.points.push_back({physics::Length(z.at(i)), physics::Force(force.at(i)),
-                                     is_approach ? physics::Branch::Approach : physics::Branch::Retract});
-  }
+  const std::span points(z.data(), count), forces(force.data(), count), approaches(approach.data(), count);
+  Unlocked unlocked;
+  curve.recorded.points = points_from(points, forces, approaches);
+  unlocked.lock();
   if (spring_constant) {
     if (!(*spring_constant > 0.0 && std::isfinite(*spring_constant)))
       refuse(fmt::format("spring_constant: {} is not positive", *spring_constant));
@@ -184,6 +183,7 @@ void add_curve(py::module_& module) {
       .def("write", &write, py::arg("path"), py::kw_only(), py::arg("format"),
            "Writes a file for other programs, whole or not at all: format \"tab\" or \"h5\" of afmformats, or\n"
            "another that touchafm curve --help names. FileError if it cannot be written.")
+      .def(py::pickle([](const Curve& self) { return state_of_curve(self); }, &curve_from_state))
       .def("__len__", [](const Curve& self) { return self.recorded.points.size(); })
       .def("__repr__", [](const Curve& self) {
         return fmt::format("<touchafm.Curve {}, {} points>", core::printable_line(self.name),

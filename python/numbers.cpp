@@ -27,7 +27,12 @@ std::map<std::string, double, std::less<>> numbers_of(const py::kwargs& given) {
     if (value.is_none()) continue;
     auto option = key.cast<std::string>();
     const double number = PyFloat_AsDouble(value.ptr());
-    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    if (PyErr_Occurred() != nullptr) {
+      const bool too_large = PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
+      PyErr_Clear();
+      if (too_large) refuse(fmt::format("{}: a whole number so large is no float", option));
+      not_numbers(option, "a number", value);
+    }
     std::replace(option.begin(), option.end(), '_', '-');
     numbers[option] = number;
   }
@@ -42,6 +47,11 @@ std::uint64_t whole_within(std::string_view name, const Whole& given, std::uint6
   const std::uint64_t number = std::get<std::uint64_t>(given);
   if (number < least || number > most) refused(number);
   return number;
+}
+
+void not_numbers(std::string_view name, std::string_view wanted, py::handle given) {
+  const std::string text = py::str(py::module_::import("reprlib").attr("repr")(given));
+  throw py::type_error(fmt::format("{}: give {}, not {}", name, wanted, text));
 }
 
 void unknown_keyword(std::string_view function, std::string_view keyword) {

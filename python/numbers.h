@@ -26,8 +26,11 @@ std::uint64_t whole_within(std::string_view name, const Whole& given, std::uint6
 std::string keyword_of(std::string_view option);
 
 // The numbers among keyword arguments, by the names of options without dashes. None is as if it were not given.
-// TypeError for a value that is no number.
+// TypeError, with the keyword, for a value that is no number.
 std::map<std::string, double, std::less<>> numbers_of(const pybind11::kwargs& given);
+
+// TypeError that names the argument and the type of what was given in place of "a number".
+[[noreturn]] void not_numbers(std::string_view name, std::string_view wanted, pybind11::handle given);
 
 // TypeError as Python's own for a keyword that a function does not have.
 [[noreturn]] void unknown_keyword(std::string_view function, std::string_view keyword);

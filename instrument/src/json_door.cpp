@@ -21,6 +21,7 @@
 #include "instrument/simulated_instrument.h"
 #include "kept_results.h"
 #include "refused_request.h"
+#include "request_text.h"
 
 namespace afm::instrument {
 namespace {
@@ -28,29 +29,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kProtocol = 1;
-constexpr int kDeepestRequest = 8;
 constexpr double kUsualSpeedM = 1e-6;  // m/s
 constexpr double kLeastSpeedM = 1e-12, kMostSpeedM = 1.0;
 constexpr double kMostWaitS = 1e7;
 constexpr std::size_t kMostSpectrumPoints = 100'000, kMostSpectrumWork = 10'000'000;
-
-// No JSON library is asked to build what is nested without end.
-bool is_too_deep(std::string_view text) {
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\') {
-      ++i;
-    } else if (text[i] == '"') {
-      quoted = !quoted;
-    } else if (!quoted && (text[i] == '[' || text[i] == '{')) {
-      if (++depth > kDeepestRequest) return true;
-    } else if (!quoted && (text[i] == ']' || text[i] == '}')) {
-      --depth;
-    }
-  }
-  return false;
-}
 
 double speed_of(Arguments& arguments) {
   return arguments.number_or("speed_m_per_s", kUsualSpeedM, kLeastSpeedM, kMostSpeedM);
@@ -332,16 +314,8 @@ Door::Then JsonDoor::answer(std::string_view request, const Send& send) {
     say({{"id", id}, {"ok", false}, {"error", core::printable(why)}});
   };
   try {
-    if (is_too_deep(request)) throw RefusedRequest("the request is nested too deep");
-    const Json parsed = Json::parse(request, nullptr, false);
-    if (!parsed.is_object())
-      throw RefusedRequest("a request is a JSON object on one line: {\"id\": 1, \"do\": \"hello\"}");
-    if (const auto found = parsed.find("id"); found != parsed.end()) {
-      if (!found->is_number() && !found->is_string() && !found->is_null()) {
-        throw RefusedRequest("\"id\": give a number or a text");
-      }
-      id = *found;
-    }
+    const Json parsed = parsed_request(request);
+    id = id_of(parsed);
     Arguments arguments(parsed);
     const auto name = arguments.text("do", 32).value_or("");
     const Verbs::Row* verb = Verbs::find(name);

@@ -24,7 +24,7 @@
 namespace afm::instrument {
 namespace {
 
-constexpr int kWaitingClients = 8;
+constexpr int kWaitingClients = 128;
 
 template <class Address>
 const sockaddr* as_address(const Address& address) {

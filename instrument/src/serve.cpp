@@ -46,7 +46,7 @@ class Client {
       if (!ended_ && buffer_.size() <= door.most_request_bytes()) read();
       return std::string_view(buffer_);
     });
-    for (std::optional<std::size_t> size; (size = door.request_size(buffer_));) {
+    for (std::optional<std::size_t> size; (size = next_size(door));) {
       const std::string request = buffer_.substr(0, *size);
       buffer_.erase(0, *size);
       const auto then = door.answer(request, [this](std::string_view bytes) { return send(bytes); });
@@ -60,6 +60,13 @@ class Client {
   }
 
  private:
+  std::optional<std::size_t> next_size(const Door& door) {
+    const auto size = door.request_size(buffer_);
+    if (size || !ended_ || buffer_.empty()) return size;
+    buffer_ += door.omitted_end();
+    return door.request_size(buffer_);
+  }
+
   void read() {
     std::array<char, kBytesAtOnce> bytes;
     const ssize_t count = ::recv(socket_.get(), bytes.data(), bytes.size(), 0);

@@ -293,7 +293,7 @@ core::Result<physics::ScanImage> SimulatedInstrument::scan(const TakeLine& taken
 }
 
 core::Result<physics::ScanImage> SimulatedInstrument::take_image(const TakeLine& taken) {
-  if (!at_.engaged) return wrong_usage("the feedback does not hold the tip; \"approach\" first");
+  if (!at_.engaged) return wrong_usage("the feedback does not hold the tip; approach the sample first");
   const Frame size = frame();
   physics::ScanArea area;
   area.width = physics::Length(size.width_m);

@@ -59,7 +59,10 @@ class _Lines:
         searched = 0
         while (end := self._bytes.find(b"\n", searched)) < 0:
             searched = len(self._bytes)
-            more = self._source.recv(1 << 18)
+            try:
+                more = self._source.recv(1 << 18)
+            except ConnectionResetError:
+                more = b""
             if not more:
                 return b""
             self._bytes += more
@@ -78,7 +81,7 @@ class Client:
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             self._socket.settimeout(timeout)
-            self._socket.connect(os.fspath(path))
+            _connect(self._socket, path, timeout)
         except BaseException:
             self._socket.close()
             raise
@@ -105,6 +108,8 @@ class Client:
     def request(self, do: str, *, on_line: Optional[_OnLine] = None, **members: Any) -> dict[str, Any]:
         """The answer to any request as a dict, whose lists of numbers are arrays: they travel as bytes, which takes less time.
         on_line is called with each line of a scan as it comes; False stops the scan."""
+        if self._socket.fileno() < 0:
+            raise ConnectionError(f"cannot {do}: this client is closed; connect() or start() another")
         if self._packs is None and do != "hello":
             self._packs = "base64" in self.request("hello").get("arrays", ())
         if self._packs:
@@ -114,7 +119,8 @@ class Client:
             text = json.dumps({"id": self._number, "do": do, **members}, default=_plain, allow_nan=False)
         except ValueError:
             raise ValueError(f"{do}: one of the numbers is not finite") from None
-        self._socket.sendall(text.encode() + b"\n")
+        with contextlib.suppress(BrokenPipeError, ConnectionResetError):  # the server's last words say why
+            self._socket.sendall(text.encode() + b"\n")
         stopping = False
         try:
             while "line" in (answer := self._answer(do)):
@@ -249,6 +255,19 @@ class Client:
         self.close()
 
 
+def _connect(to_server: socket.socket, path: _Path, timeout: float) -> None:
+    """Waits while so many clients do that the system takes no more."""
+    end = time.monotonic() + timeout
+    while True:
+        try:
+            to_server.connect(os.fspath(path))
+            return
+        except BlockingIOError:
+            if time.monotonic() > end:
+                raise TimeoutError(f"cannot connect to {os.fspath(path)} within {timeout:g} s: too many clients wait there") from None
+            time.sleep(0.01)
+
+
 def _unpacked(members: dict[str, Any]) -> Any:
     if len(members) == 1 and "base64" in members:
         return np.frombuffer(base64.b64decode(members["base64"]), "<f8")
@@ -275,6 +294,9 @@ def start(*, seed: int = 1, sample: Optional[_Path] = None, out: Optional[_Path]
     timeout: longest wait for an answer, s. Refused if the command refuses them."""
     program = pathlib.Path(__file__).parents[4] / "bin" / "touchafm"
     folder = tempfile.mkdtemp(prefix="touchafm-")
+    if len(os.fsencode(folder)) > 90:  # the system takes no longer path of a socket
+        shutil.rmtree(folder)
+        folder = tempfile.mkdtemp(prefix="touchafm-", dir="/tmp")
     path, messages = os.path.join(folder, "socket"), os.path.join(folder, "messages")
     command = [str(program), "serve", "--socket", path, "--seed", str(seed), "--once"]
     for option, value in (("--sample", sample), ("--out", out)):

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "instrument/json_door.h"
 #include "instrument/nanonis_door.h"
@@ -87,8 +88,29 @@ TEST_F(DoorsTest, AnswersEveryRequestOfAClientThatHasClosedItsHalf) {
   EXPECT_EQ(send_all(client, "{\"id\":1,\"do\":\"truth\"}\n{\"id\":2,\"do\":\"get\"}\n{\"id\":3"), 0);
   ::shutdown(client.get(), SHUT_WR);
   const std::string answers = rest_of(client);
-  EXPECT_EQ(std::count(answers.begin(), answers.end(), '\n'), 2) << "half a request is none";
+  EXPECT_EQ(std::count(answers.begin(), answers.end(), '\n'), 3);
   EXPECT_THAT(answers, StartsWith("{\"id\":1,\"ok\":true"));
+  EXPECT_THAT(answers, HasSubstr("{\"id\":null,\"ok\":false")) << "half a request";
+}
+
+// Such as printf '{"do": "get"}' | nc -NU afm.sock.
+TEST_F(DoorsTest, AnswersALastLineWithoutItsEnd) {
+  start(true);
+  const core::FileDescriptor client = connected_to(path_);
+  EXPECT_EQ(send_all(client, "{\"id\":1,\"do\":\"truth\"}\n{\"id\":2,\"do\":\"get\"}"), 0);
+  ::shutdown(client.get(), SHUT_WR);
+  EXPECT_THAT(rest_of(client), HasSubstr("{\"id\":2,\"ok\":true"));
+}
+
+TEST_F(DoorsTest, LetsManyClientsWait) {
+  start(false);
+  std::vector<core::FileDescriptor> waiting;
+  waiting.reserve(100);
+  for (int i = 0; i < 100; ++i) waiting.push_back(connected_to(path_));
+  EXPECT_EQ(send_all(waiting.back(), "{\"do\":\"quit\"}\n"), 0);
+  const core::FileDescriptor last = std::move(waiting.back());
+  waiting.clear();
+  EXPECT_THAT(rest_of(last), HasSubstr("\"ok\":true"));
 }
 
 TEST_F(DoorsTest, ServesOneClientAfterTheOther) {

@@ -2,6 +2,7 @@
 // Invariant: every request to `touchafm serve` is answered on one line, and a refused one changes nothing
 #include "instrument/json_door.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -281,6 +282,24 @@ TEST_F(JsonDoorTest, RefusesWhatItDoesNotUnderstand) {
     EXPECT_EQ(then_, JsonDoor::Then::GoOn);
   }
   EXPECT_EQ(answer_to(R"({"do": "hello"})")["ok"], true);
+}
+
+TEST_F(JsonDoorTest, SaysWhyALineIsNoRequest) {
+  EXPECT_THAT(refusal_of(R"({"do": "wait", "time_s": 1e400})"), HasSubstr("1e400"));
+  EXPECT_THAT(refusal_of(R"({"do": "wait", "time_s": NaN})"), HasSubstr("column"));
+  EXPECT_THAT(refusal_of(R"({"id": "\ud800", "do": "get"})"), HasSubstr("surrogate"));
+  EXPECT_THAT(refusal_of(R"({"do": "get", "do": "quit"})"), HasSubstr("\"do\" is given twice"));
+  EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"pixels": 8, "lines": 8, "pixels": 9}})"),
+              HasSubstr("\"pixels\" is given twice"));
+  EXPECT_LT(refusal_of("{\"do\": " + std::string(500'000, 'x') + "}").size(), 400U);
+  EXPECT_EQ(answer_to(R"({"do": "set", "values": {"do": null}, "id": 3})")["id"], 3) << "a name at two levels";
+}
+
+TEST_F(JsonDoorTest, RepeatsAnIdWithAllItsDigitsOrRefusesIt) {
+  for (const char* id : {"18446744073709551615", "-9223372036854775808", "0.1", "-7", "\"\\u0041\\ud83d\\ude00\""}) {
+    EXPECT_EQ(answer_to(fmt::format(R"({{"id": {}, "do": "truth"}})", id))["id"], json::parse(id));
+  }
+  EXPECT_THAT(refusal_of(R"({"id": 123456789012345678901, "do": "truth"})"), HasSubstr("\"id\""));
 }
 
 TEST_F(JsonDoorTest, EndsWhenAskedTo) {

@@ -40,8 +40,11 @@ class Contact(unittest.TestCase):
         for wrong in (float("nan"), float("inf"), 0.0, 1e300):
             with self.assertRaises(ValueError):
                 touchafm.Contact.material("mica", tip_radius=wrong)
-        with self.assertRaises(TypeError):
-            touchafm.Contact.material("mica", tip_radius="50nm")
+        for wrong in ("50nm", [1e-9, 2e-9], 1j):
+            with self.assertRaisesRegex(TypeError, "tip_radius: give a number, not "):
+                touchafm.Contact.material("mica", tip_radius=wrong)
+        with self.assertRaisesRegex(ValueError, "tip_radius"):
+            touchafm.Contact.material("mica", tip_radius=10**400)
         with self.assertRaises(TypeError):
             touchafm.Contact.material("mica", colour=3.0)
         with self.assertRaises(touchafm.FileError):
@@ -82,6 +85,21 @@ class Law(unittest.TestCase):
     def test_gives_no_force_where_there_is_no_height(self):
         force = self.law.force([1e-9, np.nan])
         self.assertEqual((force[0], np.isnan(force[1])), (self.law.force(1e-9), True))
+
+    def test_refuses_what_numpy_would_make_numbers_of(self):
+        for wrong in (None, "1e-9", ["1e-9"], [1e-9, None], 1j, np.array([1e-9j]), np.array([5], dtype="datetime64[s]"), [[1.0], [1.0, 2.0]]):
+            with self.assertRaises(TypeError, msg=repr(wrong)):
+                self.law.force(wrong)
+        for right in (np.array([3e-9], dtype=object), np.arange(3, dtype=">f4"), np.array([True]), [np.float16(0.0)], 10**3):
+            np.testing.assert_array_equal(self.law.force(right), self.law.force(np.asarray(right, dtype=float)))
+
+    def test_names_a_law_with_a_zero_byte_in_full(self):
+        with self.assertRaisesRegex(ValueError, "unknown model .*choose auto"):
+            touchafm.law("dmt\0", self.law.contact)
+
+    def test_is_pickled_with_its_contact(self):
+        again = pickle.loads(pickle.dumps(self.law))
+        self.assertEqual((again.name, again.force(3e-9), again.contact.as_dict()), ("dmt", self.law.force(3e-9), self.law.contact.as_dict()))
 
     def test_gives_a_float_for_a_float(self):
         self.assertIsInstance(self.law.force(3e-9), float)
@@ -159,6 +177,9 @@ class Sweep(unittest.TestCase):
                 touchafm.sweep(mica, **wrong)
         with self.assertRaises(TypeError):
             touchafm.sweep(mica, colour=[1.0])
+        for no_numbers in (None, ["5nm"], [1j], [[1e-9], [1e-9, 2e-9]]):
+            with self.assertRaisesRegex(TypeError, "tip_radius: give numbers, not "):
+                touchafm.sweep(mica, tip_radius=no_numbers)
 
 
 class Paper(unittest.TestCase):

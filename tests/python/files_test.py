@@ -4,6 +4,7 @@
 import json
 import os
 import pathlib
+import pickle
 import shutil
 import tempfile
 import unittest
@@ -91,12 +92,30 @@ class Curves(Files):
         curve = touchafm.Curve(z=np.concatenate([z, z[::-1]]), force=np.zeros(100), approach=np.arange(100) < 50,
                                spring_constant=0.1, name="mine")
         self.assertEqual((len(curve), curve.name), (100, "mine"))
-        with self.assertRaises(ValueError):
+        with self.assertRaisesRegex(ValueError, r"their shapes are \(50,\), \(49,\) and \(50,\)"):
             touchafm.Curve(z=z, force=z[1:], approach=z > 0)
+        with self.assertRaisesRegex(ValueError, r"\(50, 1\)"):
+            touchafm.Curve(z=z[:, None], force=z, approach=z > 0)
+        for no_numbers in ({"z": ["1"] * 50}, {"force": [None] * 50}, {"approach": ["a"] * 50}, {"force": z * 1j}):
+            with self.assertRaises(TypeError, msg=no_numbers):
+                touchafm.Curve(**{"z": z, "force": z, "approach": z > 0, **no_numbers})
         with self.assertRaises(ValueError):
             touchafm.Curve(z=z * np.nan, force=z, approach=z > 0)
         with self.assertRaises(ValueError):
             touchafm.Curve(z=z, force=z, approach=np.arange(50) > 10)
+
+    def test_are_pickled_with_all_that_is_known_of_them(self):
+        path = self.folder / "map.h5"
+        result = command("generate", "map", *GEL_COMMAND, "--drift", "10nm/s", "--pixels", "2x1", "--points", "60", "--out", str(path))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        mine = touchafm.Curve(z=[1e-9, 0.0], force=[0.0, 1e-9], approach=[1, 0])
+        for curve in [*touchafm.read(path), mine]:
+            again = pickle.loads(pickle.dumps(curve))
+            self.assertEqual((again.name, again.metadata, again.remarks), (curve.name, curve.metadata, curve.remarks))
+            for column in ("z", "force", "approach", "time"):
+                np.testing.assert_array_equal(getattr(again, column), getattr(curve, column))
+        with self.assertRaisesRegex(ValueError, "no pickled curve of this version"):
+            touchafm.Curve.__new__(touchafm.Curve).__setstate__(mine.__getstate__()[:5])
 
     def test_give_back_their_modulus_in_nanites_coordinates(self):  # case S04; docs/examples/by_hand has nanite's own fit
         made, truth = touchafm.generate(tip_radius=5e-6, modulus=3e3, spring_constant=0.05, most_force=1e-9)

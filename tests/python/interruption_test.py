@@ -109,6 +109,15 @@ def beside(call):
     os._exit(0)
 
 
+def left(call):
+    """Ends the program while the call goes on in another thread, and others ask for Python's lock all the time."""
+    threading.Thread(target=call, daemon=True).start()
+    for _ in range(3):
+        threading.Thread(target=lambda: [touchafm.cycle(MICA) for _ in range(10**6)], daemon=True).start()
+    time.sleep(BEGIN_S)
+    print(0.0)
+
+
 class Long(unittest.TestCase):
     def outcome(self, mode, name):
         done = subprocess.run([sys.executable, __file__, mode, name], capture_output=True, text=True, check=False, timeout=100)
@@ -123,6 +132,11 @@ class Long(unittest.TestCase):
                 print(f"{name}: {1e3 * taken:.0f} ms after Ctrl-C (bar: {1e3 * BAR_S:.0f} ms)")
                 self.assertLess(taken, 10.0 * BAR_S)
 
+    def test_lets_the_program_end_beside_it(self):
+        for name in CALLS:
+            with self.subTest(name):
+                self.outcome("left", name)
+
     def test_lets_other_threads_run(self):
         for name in CALLS:
             with self.subTest(name):
@@ -133,6 +147,6 @@ class Long(unittest.TestCase):
 
 if __name__ == "__main__":
     if len(sys.argv) == 3:
-        {"interrupted": interrupted, "beside": beside}[sys.argv[1]](CALLS[sys.argv[2]]())
+        {"interrupted": interrupted, "beside": beside, "left": left}[sys.argv[1]](CALLS[sys.argv[2]]())
     else:
         unittest.main()

@@ -152,12 +152,29 @@ class Serve(unittest.TestCase):
         with self.assertRaisesRegex(OSError, "cannot connect to n{200}: .*too long"):
             serve.connect("n" * 200)
 
+    def test_says_why_a_server_hangs_up(self):
+        with self.assertRaisesRegex(serve.Refused, "more than 1 MiB"):
+            self.afm.request("hello", seed="7" * (2 << 20))
+        with self.assertRaisesRegex(ConnectionError, "the server left while it was asked to"):
+            self.afm.get()
+        self.afm.close()
+        with self.assertRaisesRegex(ConnectionError, "cannot get: this client is closed"):
+            self.afm.get()
+
     def test_waits_for_the_client_before(self):
         path = os.path.join(self.afm._folder, "socket")
         with serve.connect(path, timeout=0.5) as second:
             with self.assertRaisesRegex(TimeoutError, "no answer to hello within 0.5 s: .*another client"):
                 second.get()
         self.assertEqual(self.afm.get()["material"], "mica")
+
+    def test_starts_where_temporary_files_have_long_paths(self):
+        folder = os.path.join(self.folder.name, "a" * 100)
+        os.mkdir(folder)
+        script = "from touchafm import serve\nwith serve.start() as afm: print(afm.get()['pixels'])"
+        done = subprocess.run([sys.executable, "-c", script], env={**os.environ, "TMPDIR": folder}, capture_output=True, text=True, check=False)
+        self.assertEqual((done.stdout, done.stderr), ("64\n", ""))
+        self.assertEqual(os.listdir(folder), [])
 
     def test_says_why_a_server_does_not_start(self):
         with self.assertRaisesRegex(serve.Refused, "no such folder"):

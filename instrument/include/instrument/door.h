@@ -25,6 +25,8 @@ class Door {
   virtual std::string_view too_long() const = 0;
   // Whether the request at the beginning of `bytes`, of which not all has come, will be longer.
   virtual bool announces_too_much(std::string_view /*bytes*/) const { return false; }
+  // Bytes that the last request may lack if its client sends nothing more.
+  virtual std::string_view omitted_end() const { return {}; }
 
   // Sends bytes; false: nobody reads any more.
   using Send = std::function<bool(std::string_view bytes)>;

@@ -24,6 +24,7 @@ class JsonDoor final : public Door {
   std::optional<std::size_t> request_size(std::string_view bytes) const override;
   std::size_t most_request_bytes() const override { return std::size_t{1} << 20; }
   std::string_view too_long() const override;
+  std::string_view omitted_end() const override { return "\n"; }
 
   // Sends the lines of a scan, and one answer.
   Then answer(std::string_view request, const Send& send) override;

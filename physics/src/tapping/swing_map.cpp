@@ -86,7 +86,7 @@ std::vector<SwingMap::Point> SwingMap::stable_points(Length z) {
     if (fixed && fixed->stable && std::none_of(found.begin(), found.end(), same)) found.push_back(fixed->at);
     return fixed;
   };
-  for (int i = 0; i < kShares; ++i) {
+  for (int i = 0; i < kShares && z.si > 0.0; ++i) {
     // swings that the sample repels, with the phase at which they lose nothing or something
     const double amplitude = z.si * (kLeastShare + kShareStep * i);
     for (const double loss : {1.0, 1.2}) {

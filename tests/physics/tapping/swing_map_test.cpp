@@ -57,5 +57,12 @@ TEST(SwingMap, FindsTheRepulsiveStateOfASoftLeverThatAveragesLack) {
   EXPECT_GT(beside[0].averages.contact_share, 0.02);
 }
 
+// A base below the surface presses the tip in: no swing is as wide as its height is negative.
+TEST(SwingMap, FindsNoSwingOfANegativeWidth) {
+  const TappedSample sample;
+  SwingMap map(sample.surface(), sample.lever());
+  for (const DirectSwing& swing : map.stable_beside({}, -0.5_nm)) EXPECT_GT(swing.state.amplitude, 0.0_nm);
+}
+
 }  // namespace swing_map_test
 }  // namespace afm::physics
