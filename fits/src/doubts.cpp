@@ -66,7 +66,8 @@ class Judge {
     add(fit, Doubt::LeverTooSoft, contact_n_per_m / setup_.spring_n_per_m);
     add(fit, Doubt::Unknown, fit.modulus_interval_pa.high / fit.modulus_interval_pa.low);
     add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact));
-    add(fit, Doubt::Shallow, fit.depth_m * setup_.spring_n_per_m / fit.noise_n);
+    // a force that never changes has neither depth nor noise
+    add(fit, Doubt::Shallow, fit.depth_m > 0.0 ? fit.depth_m * setup_.spring_n_per_m / fit.noise_n : 0.0);
     if (!fit.adhesion) judge_adhesion(fit, push_n);
     add(fit, Doubt::BeyondLayer, layer_strain(setup_.indenter, fit.depth_m));
     if (fit.rms_n > kRounding * push_n) judge_residuals(fit);
