@@ -36,6 +36,7 @@ namespace afm::app {
 namespace {
 
 constexpr const char* kTable = "fits.tsv";
+constexpr std::size_t kMostUnwritten = 65536;  // bytes of rows
 constexpr const char* kHistograms = "modulus.svg";
 constexpr const char* kPage = "report.html";
 constexpr const char* kColumns =
@@ -131,24 +132,31 @@ std::string bootstrap_cells(const fits::ElasticFit& fit) {
 // Publication of the law, and the program.
 std::string origin(fits::Shape shape) { return fmt::format("{}\t{}", fits::row_of(shape).meaning, core::written_by()); }
 
-std::string row_of(const std::string& file, std::size_t index, const curves::FittedCurve& fitted,
+// What all rows of a file have in common.
+struct FileCells {
+  FileCells(const std::string& file, const curves::FitOptions& options)
+      : name(core::printable_line(file)), sizes_of_fit(sizes(options)) {}
+
+  std::string name, sizes_of_fit;
+};
+
+std::string row_of(const FileCells& file, std::size_t index, const curves::FittedCurve& fitted,
                    const curves::FitOptions& options) {
-  const std::string name = core::printable_line(file);
   if (!fitted.fit) {
     constexpr std::size_t kNumbers = 16, kAdhesionCells = 8;
-    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\t\t\t\t\t{}\n", name, core::printable_line(fitted.why),
-                       std::string(kNumbers, '\t'), sizes(options), std::string(kAdhesionCells, '\t'),
+    return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\t\t\t\t\t{}\n", file.name, core::printable_line(fitted.why),
+                       std::string(kNumbers, '\t'), file.sizes_of_fit, std::string(kAdhesionCells, '\t'),
                        features(index, fitted), origin(*options.shape));
   }
   const fits::ElasticFit& fit = *fitted.fit;
   const auto finite = [](double value) { return cell(std::isfinite(value) ? std::optional(value) : std::nullopt); };
   const std::string order = fit.noise_order ? fmt::format("{}", *fit.noise_order) : "";
   return fmt::format("{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n",
-                     name, fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
+                     file.name, fits::name_of(fit.trust), reasons(fit), fit.modulus_pa, fit.modulus_interval_pa.low,
                      finite(fit.modulus_interval_pa.high), fit.reduced_modulus_pa, fit.contact_z_m, fit.level_n,
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
                      fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
-                     fitted.spring_n_per_m, sizes(options), adhesion_cells(fit), features(index, fitted),
+                     fitted.spring_n_per_m, file.sizes_of_fit, adhesion_cells(fit), features(index, fitted),
                      bootstrap_cells(fit), origin(fit.shape));
 }
 
@@ -268,11 +276,17 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
       if (!count) break;
       FitMaps maps(*count);
       page.begin(file);
+      const FileCells cells(file, options.fit);
+      std::string rows;
       std::size_t index = 0;
       for (; index < *count; ++index) {
         const auto fitted = pool.take(whole_files, index);
         if (!fitted) break;
-        if (const auto written = write(row_of(file, index, *fitted, options.fit)); !written) return written;
+        rows += row_of(cells, index, *fitted, options.fit);
+        if (!pool.has_next() || rows.size() > kMostUnwritten) {
+          if (const auto written = write(rows); !written) return written;
+          rows.clear();
+        }
         summary.add(*fitted);
         page.add(*fitted);
         maps.add(*fitted);

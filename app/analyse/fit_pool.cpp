@@ -28,10 +28,20 @@ std::optional<std::size_t> FitPool::count(std::size_t file) {
   return wait([&] { return results_[file].count.has_value(); }) ? results_[file].count : std::nullopt;
 }
 
+// All that follow are fetched at once: a lock and a wake-up for each curve would cost as much as its row of the table.
 std::optional<curves::FittedCurve> FitPool::take(std::size_t file, std::size_t curve) {
-  if (!wait([&] { return results_[file].curves[curve].has_value(); })) return std::nullopt;
-  const std::lock_guard lock(mutex_);
-  return std::exchange(results_[file].curves[curve], std::nullopt);
+  if (next_.empty()) {
+    if (!wait([&] { return results_[file].curves[curve].has_value(); })) return std::nullopt;
+    const std::lock_guard lock(mutex_);
+    auto& curves = results_[file].curves;
+    for (std::size_t i = curve; i < curves.size() && curves[i]; ++i) {
+      next_.push_back(std::move(*curves[i]));
+      curves[i].reset();
+    }
+  }
+  std::optional<curves::FittedCurve> first(std::move(next_.front()));
+  next_.pop_front();
+  return first;
 }
 
 void FitPool::forget(std::size_t file) {
@@ -101,19 +111,31 @@ void FitPool::begin(std::size_t file) {
 }
 
 void FitPool::fit_share(const std::stop_token& stop, const Share& share) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t kMostKept = 32;
+  constexpr std::chrono::milliseconds kLongestKept{50};
   const std::string& file = files_[share.file];
   const std::size_t count = *results_[share.file].count;
-  curves::read_curves(
-      file, count, share.part, options_.reading, [&](std::size_t index, core::Result<curves::RecordedCurve> curve) {
-        put(share.file, index,
-            curves::fitted_curve(file, std::move(curve), options_.fit, options_.contact_method, options_.baseline));
-        return !stop.stop_requested();
-      });
+  Fitted fitted;
+  fitted.reserve(kMostKept);
+  Clock::time_point put_at = Clock::now();
+  curves::read_curves(file, count, share.part, options_.reading,
+                      [&](std::size_t index, core::Result<curves::RecordedCurve> curve) {
+                        fitted.emplace_back(index, curves::fitted_curve(file, std::move(curve), options_.fit,
+                                                                        options_.contact_method, options_.baseline));
+                        if (fitted.size() == kMostKept || Clock::now() - put_at > kLongestKept) {
+                          put(share.file, fitted);
+                          put_at = Clock::now();
+                        }
+                        return !stop.stop_requested();
+                      });
+  put(share.file, fitted);
 }
 
-void FitPool::put(std::size_t file, std::size_t curve, curves::FittedCurve result) {
+void FitPool::put(std::size_t file, Fitted& fitted) {
   const std::lock_guard lock(mutex_);
-  results_[file].curves[curve] = std::move(result);
+  for (auto& [curve, result] : fitted) results_[file].curves[curve] = std::move(result);
+  fitted.clear();
   changed_.notify_all();
 }
 

@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/analyse/analyse_command.h"
@@ -31,7 +32,11 @@ class FitPool {
   std::optional<std::size_t> count(std::size_t file);
 
   // Waits for the result of one curve, which can be taken once. Empty after an interruption.
+  // Those of a file are taken in order, from the first on.
   std::optional<curves::FittedCurve> take(std::size_t file, std::size_t curve);
+
+  // False if the next take() may have to wait.
+  bool has_next() const { return !next_.empty(); }
 
   // Frees what is left of a file's results.
   void forget(std::size_t file);
@@ -50,7 +55,9 @@ class FitPool {
   void work(const std::stop_token& stop);
   void begin(std::size_t file);
   void fit_share(const std::stop_token& stop, const Share& share);
-  void put(std::size_t file, std::size_t curve, curves::FittedCurve result);
+  // Results of a file with the indexes of their curves; empty afterwards.
+  using Fitted = std::vector<std::pair<std::size_t, curves::FittedCurve>>;
+  void put(std::size_t file, Fitted& fitted);
   template <class Ready>
   bool wait(const Ready& ready);
 
@@ -63,7 +70,8 @@ class FitPool {
   std::size_t beginning_ = 0;  // files whose curves are being counted
   std::deque<Share> shares_;
   std::vector<Results> results_;
-  std::vector<std::jthread> workers_;  // last: they end before what they use
+  std::deque<curves::FittedCurve> next_;  // of the thread that takes them
+  std::vector<std::jthread> workers_;     // last: they end before what they use
 };
 
 }  // namespace afm::app

@@ -29,6 +29,7 @@
 #include "core/write_all.h"
 #include "curves/curve_error.h"
 #include "curves/image_output.h"
+#include "formats/handed_curve.h"
 #include "formats/segments.h"
 #include "formats/tab_file.h"
 #include "hdf5_file.h"
@@ -88,7 +89,7 @@ void stream(const Curves& file, const Asked& asked) {
   const std::size_t count = file.size();
   for (std::size_t i = asked.first; i < count; i += asked.step) {
     try {
-      curves::put_message({false, tab_bytes(file.curve(i, asked.reading))});
+      curves::put_message({false, handed_bytes(file.curve(i, asked.reading))});
     } catch (const curves::CurveError& fault) {
       curves::put_message({true, fault.what()});
     }

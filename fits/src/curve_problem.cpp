@@ -27,51 +27,64 @@ CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setu
   }
 }
 
-// In series with the lever, two samples at once. The arrays are reached by pointers: a check of each index would cost
+// In series with the lever, some samples at once. The arrays are reached by pointers: a check of each index would cost
 // as much as the arithmetic.
 void CurveProblem::press(CurveModel& model) const {
+  constexpr std::size_t kAtOnce = PressedLever::kAtOnce;
   const double spring = setup_.spring_n_per_m, contact_m = model.unknowns[kContact], level_n = model.unknowns[kLevel];
   const PressedLever lever(setup_.indenter, std::exp(model.unknowns[kModulus]), spring);
   double* const near = model.near.data();
-  std::size_t first = 0;
-  bool waits = false;
-  Two way_m{}, root{};
-  const auto put = [&, depth_m = model.depth_m.data(), force_n = model.residual_n.data(),
-                    by_modulus_n = model.by_modulus_n.data(), by_contact = model.by_contact_n_per_m.data(),
-                    touch = model.touch.data()](std::size_t t, const PressedLever::Pressed& pressed, int i) {
-    const double softer = 1.0 / (1.0 + pressed.slope_n_per_m[i] / spring);
-    depth_m[t] = pressed.depth_m[i];
-    force_n[t] = pressed.force_n[i];
-    by_modulus_n[t] = pressed.force_n[i] * softer;
-    by_contact[t] = pressed.slope_n_per_m[i] * softer;
-    near[t] = root[i];
-    touch[t] = 1;
+  std::array<std::size_t, kAtOnce> sample{};
+  alignas(PressedLever::Four) std::array<double, kAtOnce> way{}, start{};
+  PressedLever::Four way_m{}, root{};
+  PressedLever::Pressed pressed;
+  const auto press_first = [&, depth_m = model.depth_m.data(), residual_n = model.residual_n.data(),
+                            by_modulus_n = model.by_modulus_n.data(), by_contact = model.by_contact_n_per_m.data(),
+                            touch = model.touch.data()](std::size_t count) {
+    unrolled<2>([&](auto k) {
+      way_m[k] = two_at(way.data() + 2 * k);
+      root[k] = two_at(start.data() + 2 * k);
+    });
+    lever.at(way_m, root, pressed);
+    unrolled<2>([&](auto k) {
+      const Two softer = 1.0 / (1.0 + pressed.slope_n_per_m[k] / spring);
+      const Two by_modulus = pressed.force_n[k] * softer, slope = pressed.slope_n_per_m[k] * softer;
+      for (std::size_t i = 2 * k; i < std::min<std::size_t>(count, 2 * k + 2); ++i) {
+        const std::size_t t = sample[i];
+        const int of_pair = i == 2 * k ? 0 : 1;
+        depth_m[t] = pressed.depth_m[k][of_pair];
+        residual_n[t] += pressed.force_n[k][of_pair];
+        by_modulus_n[t] = by_modulus[of_pair];
+        by_contact[t] = slope[of_pair];
+        near[t] = root[k][of_pair];
+        touch[t] = 1;
+      }
+    });
   };
   const double* const z_m = z_m_.data();
   const double* const measured_n = force_n_.data();
+  std::size_t waiting = 0;
   for (std::size_t t = 0; t < size(); ++t) {
-    const double way = contact_m - z_m[t];
-    if (!(way > 0.0)) continue;
+    const double to_contact_m = contact_m - z_m[t];
+    if (!(to_contact_m > 0.0)) continue;
     // at first from the depth that was measured
     constexpr double kLeast = 0.01;  // share of the way
-    const double start =
-        near[t] > 0.0 ? near[t] : std::sqrt(std::clamp(way - (measured_n[t] - level_n) / spring, kLeast * way, way));
-    if (!waits) {
-      // a last one alone counts twice
-      way_m = Two{way, way};
-      root = Two{start, start};
-      first = t;
-      waits = true;
-      continue;
-    }
-    way_m[1] = way;
-    root[1] = start;
-    const PressedLever::Pressed pressed = lever.at(way_m, root);
-    put(first, pressed, 0);
-    put(t, pressed, 1);
-    waits = false;
+    sample[waiting] = t;
+    way[waiting] = to_contact_m;
+    start[waiting] = near[t] > 0.0 ? near[t]
+                                   : std::sqrt(std::clamp(to_contact_m - (measured_n[t] - level_n) / spring,
+                                                          kLeast * to_contact_m, to_contact_m));
+    if (++waiting < kAtOnce) continue;
+    press_first(kAtOnce);
+    waiting = 0;
   }
-  if (waits) put(first, lever.at(way_m, root), 0);
+  if (waiting == 0) return;
+  // the last ones again in the places that are left
+  for (std::size_t i = waiting; i < kAtOnce; ++i) {
+    way[i] = way[waiting - 1];
+    start[i] = start[waiting - 1];
+  }
+  press_first(waiting);
 }
 
 // F8: d = z_c - (Z + F_measured/k)
@@ -83,8 +96,8 @@ void CurveProblem::press_against_tip(CurveModel& model) const {
     if (!(depth_m > 0.0)) continue;
     const Push push = push_of(setup_.indenter, depth_m);
     model.depth_m[t] = depth_m;
-    model.residual_n[t] = modulus_pa * push.force;
-    model.by_modulus_n[t] = model.residual_n[t];
+    model.by_modulus_n[t] = modulus_pa * push.force;
+    model.residual_n[t] += model.by_modulus_n[t];
     model.by_contact_n_per_m[t] = modulus_pa * push.slope;
     model.touch[t] = 1;
   }
@@ -103,7 +116,7 @@ void CurveProblem::hold(CurveModel& model) const {
     if (!sticks_[t]) continue;
     const AdhesiveBranch::Held held = branch.at(unknowns[kContact] - z_m_[t], near);
     model.depth_m[t] = held.depth_m;
-    model.residual_n[t] = held.force_n;
+    model.residual_n[t] += held.force_n;
     model.by_modulus_n[t] = held.by_modulus_n;
     model.by_contact_n_per_m[t] = held.by_contact_n_per_m;
     model.by_work_n[t] = held.by_work_n;
@@ -116,23 +129,27 @@ const CurveModel& CurveProblem::model(const Unknowns& unknowns) const {
   if (unknowns == model.unknowns) return model;
   const std::size_t n = size();
   model.near.resize(n, 0.0);
-  for (std::vector<double>* const column :
-       {&model.residual_n, &model.depth_m, &model.by_modulus_n, &model.by_contact_n_per_m}) {
-    column->assign(n, 0.0);
+  model.residual_n.resize(n);
+  // before its first touch the last model has written nothing
+  const auto changed = static_cast<std::ptrdiff_t>(model.first_touch);
+  const auto clear = [&](auto& column) {
+    column.resize(n);
+    std::fill(column.begin() + changed, column.end(), 0);
+  };
+  for (std::vector<double>* const column : {&model.depth_m, &model.by_modulus_n, &model.by_contact_n_per_m}) {
+    clear(*column);
   }
-  if (is_adhesive_) model.by_work_n.assign(n, 0.0);
-  model.touch.assign(n, 0);
+  if (is_adhesive_) clear(model.by_work_n);
+  clear(model.touch);
   model.unknowns = unknowns;
+  const double level_n = unknowns[kLevel], tilt = setup_.tilt ? unknowns[kTilt] : 0.0;
+  for (std::size_t t = 0; t < n; ++t) model.residual_n[t] = level_n + tilt * way_m_[t] - force_n_[t];
   if (is_adhesive_) {
     hold(model);
   } else if (setup_.against == Against::Tip) {
     press_against_tip(model);
   } else {
     press(model);
-  }
-  const double level_n = unknowns[kLevel], tilt = setup_.tilt ? unknowns[kTilt] : 0.0;
-  for (std::size_t t = 0; t < n; ++t) {
-    model.residual_n[t] += level_n + tilt * way_m_[t] - force_n_[t];
   }
   const auto first = std::find(model.touch.begin(), model.touch.end(), 1);
   model.first_touch = static_cast<std::size_t>(first - model.touch.begin());

@@ -66,7 +66,8 @@ class Judge {
     add(fit, Doubt::LeverTooSoft, contact_n_per_m / setup_.spring_n_per_m);
     add(fit, Doubt::Unknown, fit.modulus_interval_pa.high / fit.modulus_interval_pa.low);
     add(fit, Doubt::FewPoints, static_cast<double>(fit.in_contact));
-    add(fit, Doubt::Shallow, fit.depth_m * setup_.spring_n_per_m / fit.noise_n);
+    // a force that never changes has neither depth nor noise
+    add(fit, Doubt::Shallow, fit.depth_m > 0.0 ? fit.depth_m * setup_.spring_n_per_m / fit.noise_n : 0.0);
     if (!fit.adhesion) judge_adhesion(fit, push_n);
     add(fit, Doubt::BeyondLayer, layer_strain(setup_.indenter, fit.depth_m));
     if (fit.rms_n > kRounding * push_n) judge_residuals(fit);
@@ -134,6 +135,7 @@ class Judge {
     constexpr double kChance = 3.0, kMostCorrelated = 0.999;
     const CurveModel& model = problem_.model(ended_.unknowns);
     std::vector<double> free;
+    free.reserve(model.touch.size());
     for (std::size_t t = 0; t < model.touch.size(); ++t) {
       if (model.touch[t] == 0) free.push_back(model.residual_n[t]);
     }
@@ -148,6 +150,7 @@ class Judge {
   // The modulus of half the depth, by the same noise; it may differ by three of its standard deviations.
   void judge_level(ElasticFit& fit) {
     std::vector<Sample> shallow;
+    shallow.reserve(samples_.size());
     std::size_t pushed = 0;
     const CurveModel& model = problem_.model(ended_.unknowns);
     for (std::size_t t = 0; t < samples_.size(); ++t) {
@@ -212,11 +215,10 @@ double run_of_middle_point(std::vector<double> runs) {
 
 // Half of a usual change of the force from one point to the next, magnitude.
 double half_a_step_n(std::span<const Sample> samples) {
-  std::vector<double> steps;
-  for (std::size_t t = 1; t < samples.size(); ++t) {
-    steps.push_back(std::abs(samples[t].force_n - samples[t - 1].force_n));
-  }
-  if (steps.empty()) return 0.0;
+  if (samples.size() < 2) return 0.0;
+  std::vector<double> steps(samples.size() - 1);
+  std::transform(samples.begin() + 1, samples.end(), samples.begin(), steps.begin(),
+                 [](const Sample& here, const Sample& before) { return std::abs(here.force_n - before.force_n); });
   const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
   std::nth_element(steps.begin(), middle, steps.end());
   return 0.5 * *middle;

@@ -120,17 +120,15 @@ Push in_exact_layer(const Push& thick, double s, double power, double depth_m, c
           stiffer.factor * (thick.slope + thick.force * stiffer.slope * power * s / depth_m)};
 }
 
-constexpr std::array kGarciaSphere{1.133, 1.497, 1.469, 0.755};  // (F4)
-constexpr std::array kGarciaCone{0.721, 0.650, 0.491, 0.225};    // (F5)
+constexpr std::array<double, 4> kGarciaSphere{1.133, 1.497, 1.469, 0.755};  // (F4)
+constexpr std::array<double, 4> kGarciaCone{0.721, 0.650, 0.491, 0.225};    // (F5)
 
 // (F6): the rounded coefficients of the paper, for a bonded layer of nu = 0.5
-constexpr std::array kDimitriadis{1.133, 1.283, 0.769, 0.0975};
+constexpr std::array<double, 4> kDimitriadis{1.133, 1.283, 0.769, 0.0975};
 
-double contact_over_layer(const Indenter& indenter, double depth_m) {
-  return std::sqrt(indenter.radius_m * depth_m) / indenter.layer_m;
-}
-
-double depth_over_layer(const Indenter& indenter, double depth_m) {
+// Of a layer: contact radius, or depth for a sharp tip, over thickness.
+double strain_of(const ShapeRow& row, const Indenter& indenter, double depth_m) {
+  if (row.has_radius) return std::sqrt(indenter.radius_m * depth_m) / indenter.layer_m;
   return depth_m * std::tan(indenter.half_angle_rad) / indenter.layer_m;
 }
 
@@ -138,101 +136,61 @@ double depth_over_layer(const Indenter& indenter, double depth_m) {
 
 const std::array<ShapeRow, 15> kShapes{{
     {Shape::Paraboloid, "paraboloid", true, false, false, false,
-     "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para"},
-    {Shape::Sphere, "sphere", true, false, false, false, "Sneddon 1965, exact"},
-    {Shape::Cone, "cone", false, false, false, false, "Sneddon 1965, (2/pi) tan(a) E* d^2"},
-    {Shape::Pyramid3, "pyramid3", false, false, false, false, "three faces, 0.8887 tan(a) E* d^2, as in nanite 4.2"},
+     "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para", true},
+    {Shape::Sphere, "sphere", true, false, false, false, "Sneddon 1965, exact", false},
+    {Shape::Cone, "cone", false, false, false, false, "Sneddon 1965, (2/pi) tan(a) E* d^2", true, 2.0 / kPi},
+    {Shape::Pyramid3, "pyramid3", false, false, false, false, "three faces, 0.8887 tan(a) E* d^2, as in nanite 4.2",
+     true, 0.8887},
     {Shape::Pyramid4Bilodeau, "pyramid4-bilodeau", false, false, false, false,
-     "four faces, 0.7453 tan(a) E* d^2, Bilodeau 1992"},
+     "four faces, 0.7453 tan(a) E* d^2, Bilodeau 1992", true, 0.7453},
     {Shape::Pyramid4Rico, "pyramid4-rico", false, false, false, false,
-     "four faces, 0.7071 tan(a) E* d^2, Rico 2005, as in JPK's"},
-    {Shape::LayerSphere, "layer-sphere", true, true, false, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
-    {Shape::LayerCone, "layer-cone", false, true, false, false, "bonded layer, nu 0.5, Garcia & Garcia 2018"},
+     "four faces, 0.7071 tan(a) E* d^2, Rico 2005, as in JPK's", true, 1.0 / std::numbers::sqrt2},
+    {Shape::LayerSphere, "layer-sphere", true, true, false, false, "bonded layer, nu 0.5, Garcia & Garcia 2018", false,
+     0.0, &kGarciaSphere},
+    {Shape::LayerCone, "layer-cone", false, true, false, false, "bonded layer, nu 0.5, Garcia & Garcia 2018", false,
+     2.0 / kPi, &kGarciaCone},
     {Shape::LayerExactSphere, "layer-exact-sphere", true, true, true, false,
-     "layer of any nu and --base, exact, paraboloid"},
-    {Shape::LayerExactCone, "layer-exact-cone", false, true, true, false, "layer of any nu and --base, exact, cone"},
+     "layer of any nu and --base, exact, paraboloid", false},
+    {Shape::LayerExactCone, "layer-exact-cone", false, true, true, false, "layer of any nu and --base, exact, cone",
+     false, 2.0 / kPi},
     {Shape::LayerDimitriadis, "layer-dimitriadis", true, true, false, false,
-     "bonded layer, nu 0.5, Dimitriadis 2002: biased, 5 % low at sqrt(R d)/h = 0.42"},
+     "bonded layer, nu 0.5, Dimitriadis 2002: biased, 5 % low at sqrt(R d)/h = 0.42", false, 0.0, &kDimitriadis},
     {Shape::Dmt, "dmt", true, false, false, true,
-     "adhesion: Derjaguin, Muller & Toporov 1975, stiff samples; both branches"},
+     "adhesion: Derjaguin, Muller & Toporov 1975, stiff samples; both branches", true},
     {Shape::Jkr, "jkr", true, false, false, true,
-     "adhesion: Johnson, Kendall & Roberts 1971, soft samples; both branches"},
-    {Shape::Maugis, "maugis", true, false, false, true, "adhesion: Maugis 1992, between DMT and JKR; both branches"},
-    {Shape::Auto, "auto", true, false, false, true,
-     "adhesion: dmt, maugis or jkr, by Tabor's parameter; both branches"},
+     "adhesion: Johnson, Kendall & Roberts 1971, soft samples; both branches", true},
+    {Shape::Maugis, "maugis", true, false, false, true, "adhesion: Maugis 1992, between DMT and JKR; both branches",
+     true},
+    {Shape::Auto, "auto", true, false, false, true, "adhesion: dmt, maugis or jkr, by Tabor's parameter; both branches",
+     true},
 }};
 
 const ShapeRow& row_of(Shape shape) { return kShapes.at(static_cast<std::size_t>(shape)); }
 
 Push push_of(const Indenter& indenter, double depth_m) noexcept {
   if (!(depth_m > 0.0)) return {};
-  const double angle_rad = indenter.half_angle_rad;
-  switch (indenter.shape) {
-    case Shape::Paraboloid:
-    case Shape::Dmt:
-    case Shape::Jkr:
-    case Shape::Maugis:
-    case Shape::Auto:
-      return paraboloid(indenter.radius_m, depth_m);
-    case Shape::Sphere:
-      return sphere(indenter.radius_m, depth_m);
-    case Shape::Cone:
-      return sharp(2.0 / kPi, angle_rad, depth_m);
-    case Shape::Pyramid3:
-      return sharp(0.8887, angle_rad, depth_m);
-    case Shape::Pyramid4Bilodeau:
-      return sharp(0.7453, angle_rad, depth_m);
-    case Shape::Pyramid4Rico:
-      return sharp(1.0 / std::numbers::sqrt2, angle_rad, depth_m);
-    case Shape::LayerSphere:
-      return in_layer(paraboloid(indenter.radius_m, depth_m), contact_over_layer(indenter, depth_m), 0.5, depth_m,
-                      kGarciaSphere);
-    case Shape::LayerCone:
-      return in_layer(sharp(2.0 / kPi, angle_rad, depth_m), depth_over_layer(indenter, depth_m), 1.0, depth_m,
-                      kGarciaCone);
-    case Shape::LayerExactSphere:
-      return in_exact_layer(paraboloid(indenter.radius_m, depth_m), contact_over_layer(indenter, depth_m), 0.5, depth_m,
-                            *indenter.table);
-    case Shape::LayerExactCone:
-      return in_exact_layer(sharp(2.0 / kPi, angle_rad, depth_m), depth_over_layer(indenter, depth_m), 1.0, depth_m,
-                            *indenter.table);
-    case Shape::LayerDimitriadis:
-      return in_layer(paraboloid(indenter.radius_m, depth_m), contact_over_layer(indenter, depth_m), 0.5, depth_m,
-                      kDimitriadis);
-  }
-  return {};
+  const ShapeRow& row = row_of(indenter.shape);
+  if (!row.is_power && !row.has_layer) return sphere(indenter.radius_m, depth_m);
+  const Push thick =
+      row.has_radius ? paraboloid(indenter.radius_m, depth_m) : sharp(row.sharp, indenter.half_angle_rad, depth_m);
+  if (!row.has_layer) return thick;
+  const double strain = strain_of(row, indenter, depth_m), power = row.has_radius ? 0.5 : 1.0;
+  return row.layer != nullptr ? in_layer(thick, strain, power, depth_m, *row.layer)
+                              : in_exact_layer(thick, strain, power, depth_m, *indenter.table);
 }
 
 std::optional<PowerLaw> power_law_of(const Indenter& indenter) noexcept {
   constexpr double kUnitDepth = 1.0;
-  switch (indenter.shape) {
-    case Shape::Paraboloid:
-    case Shape::Dmt:
-    case Shape::Jkr:
-    case Shape::Maugis:
-    case Shape::Auto:
-      return PowerLaw{false, push_of(indenter, kUnitDepth).force};
-    case Shape::Cone:
-    case Shape::Pyramid3:
-    case Shape::Pyramid4Bilodeau:
-    case Shape::Pyramid4Rico:
-      return PowerLaw{true, push_of(indenter, kUnitDepth).force};
-    case Shape::Sphere:
-    case Shape::LayerSphere:
-    case Shape::LayerCone:
-    case Shape::LayerExactSphere:
-    case Shape::LayerExactCone:
-    case Shape::LayerDimitriadis:
-      break;
-  }
-  return std::nullopt;
+  const ShapeRow& row = row_of(indenter.shape);
+  if (!row.is_power) return std::nullopt;
+  return PowerLaw{!row.has_radius, push_of(indenter, kUnitDepth).force};
 }
 
 double layer_strain(const Indenter& indenter, double depth_m) noexcept {
   constexpr double kMostSphere = 0.5, kMostCone = 0.9;
   const ShapeRow& row = row_of(indenter.shape);
   if (!row.has_layer || !(depth_m > 0.0)) return 0.0;
-  const double strain = row.has_radius ? contact_over_layer(indenter, depth_m) : depth_over_layer(indenter, depth_m);
+  const double strain = strain_of(row, indenter, depth_m);
   if (row.is_exact) return strain / indenter.table->largest_strain();
   return strain / (row.has_radius ? kMostSphere : kMostCone);
 }

@@ -28,41 +28,58 @@ InSeries in_series(const Indenter& indenter, double modulus_pa, double spring_n_
 PressedLever::PressedLever(const Indenter& indenter, double modulus_pa, double spring_n_per_m)
     : indenter_(indenter), power_(power_law_of(indenter)), modulus_pa_(modulus_pa), spring_n_per_m_(spring_n_per_m) {}
 
-// With the root u of the depth, u^2 + c u^3 = way, by Halley's method: from either side no step passes beyond 0.
-PressedLever::Pressed PressedLever::blunt_at(const Two& way_m, Two& root) const {
+// With the root u of the depth, u^2 + c u^3 = way, by Halley's method: from either side no step passes beyond 0. Two
+// pairs, so that one is worked on while the other waits for a division.
+void PressedLever::blunt_at(const Four& way_m, Four& root, Pressed& pressed) const {
   constexpr int kMostSteps = 60;
   constexpr double kClose = 1e-4;  // the error of a step is about the cube
   const double stiffness = modulus_pa_ * power_->coefficient, bent = stiffness / spring_n_per_m_;
+  Four u(root);
   for (int i = 0; i < kMostSteps; ++i) {
-    const Two more = bent * root, off = root * root * (1.0 + more) - way_m;
-    const Two slope = root * (2.0 + 3.0 * more), half = off * (1.0 + 3.0 * more);
-    const Two step = off * slope / (slope * slope - half);
-    root -= step;
+    Four far{};
+    unrolled<2>([&](auto k) {
+      const Two more = bent * u[k], off = u[k] * u[k] * (1.0 + more) - way_m[k];
+      const Two slope = u[k] * (2.0 + 3.0 * more), half = off * (1.0 + 3.0 * more);
+      const Two step = off * slope / (slope * slope - half);
+      u[k] -= step;
+      // by squares, which have no sign
+      far[k] = step * step - (kClose * kClose) * (u[k] * u[k]);
+    });
     // also ends where a number is none
-    if (!(std::abs(step[0]) > kClose * root[0] || std::abs(step[1]) > kClose * root[1])) break;
+    if (!(far[0][0] > 0.0 || far[0][1] > 0.0 || far[1][0] > 0.0 || far[1][1] > 0.0)) break;
   }
-  return {root * root, stiffness * root * root * root, 1.5 * stiffness * root};
+  unrolled<2>([&](auto k) {
+    pressed.depth_m[k] = u[k] * u[k];
+    pressed.force_n[k] = stiffness * u[k] * u[k] * u[k];
+    pressed.slope_n_per_m[k] = 1.5 * stiffness * u[k];
+  });
+  root = u;
 }
 
 // d + c d^2 = way
-PressedLever::Pressed PressedLever::sharp_at(const Two& way_m) const {
+void PressedLever::sharp_at(const Four& way_m, Pressed& pressed) const {
   const double stiffness = modulus_pa_ * power_->coefficient, bent = stiffness / spring_n_per_m_;
-  const Two square = 1.0 + 4.0 * bent * way_m;
-  const Two depth_m = 2.0 * way_m / (1.0 + Two{std::sqrt(square[0]), std::sqrt(square[1])});
-  return {depth_m, stiffness * depth_m * depth_m, 2.0 * stiffness * depth_m};
+  unrolled<2>([&](auto k) {
+    const Two square = 1.0 + 4.0 * bent * way_m[k];
+    const Two depth_m = 2.0 * way_m[k] / (1.0 + Two{std::sqrt(square[0]), std::sqrt(square[1])});
+    pressed.depth_m[k] = depth_m;
+    pressed.force_n[k] = stiffness * depth_m * depth_m;
+    pressed.slope_n_per_m[k] = 2.0 * stiffness * depth_m;
+  });
 }
 
-PressedLever::Pressed PressedLever::at(const Two& way_m, Two& root) const {
-  if (power_) return power_->is_sharp ? sharp_at(way_m) : blunt_at(way_m, root);
-  Pressed pressed;
-  for (const int i : {0, 1}) {
-    const auto [depth_m, push] = in_series(indenter_, modulus_pa_, spring_n_per_m_, way_m[i], root[i] * root[i]);
-    root[i] = std::sqrt(depth_m);
-    pressed.depth_m[i] = depth_m;
-    pressed.force_n[i] = modulus_pa_ * push.force;
-    pressed.slope_n_per_m[i] = modulus_pa_ * push.slope;
+void PressedLever::at(const Four& way_m, Four& root, Pressed& pressed) const {
+  if (power_) return power_->is_sharp ? sharp_at(way_m, pressed) : blunt_at(way_m, root, pressed);
+  for (std::size_t i = 0; i < kAtOnce; ++i) {
+    const std::size_t k = i / 2;
+    const int of_pair = i % 2 == 0 ? 0 : 1;
+    const double near_m = root[k][of_pair] * root[k][of_pair];
+    const auto [depth_m, push] = in_series(indenter_, modulus_pa_, spring_n_per_m_, way_m[k][of_pair], near_m);
+    root[k][of_pair] = std::sqrt(depth_m);
+    pressed.depth_m[k][of_pair] = depth_m;
+    pressed.force_n[k][of_pair] = modulus_pa_ * push.force;
+    pressed.slope_n_per_m[k][of_pair] = modulus_pa_ * push.slope;
   }
-  return pressed;
 }
 
 }  // namespace afm::fits

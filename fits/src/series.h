@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 #include "fits/indenter.h"
@@ -17,21 +19,23 @@ struct InSeries {
 // `way_m`, positive, is the way of the base beyond the contact point; `near_m` a depth from which the search begins.
 InSeries in_series(const Indenter& indenter, double modulus_pa, double spring_n_per_m, double way_m, double near_m);
 
-// The same at many ways of one contact, two at once where the force is a power of the depth.
+// The same at many ways of one contact, four at once where the force is a power of the depth.
 class PressedLever {
  public:
   PressedLever(const Indenter& indenter, double modulus_pa, double spring_n_per_m);
 
+  static constexpr std::size_t kAtOnce = 4;
+  using Four = std::array<Two, 2>;
   struct Pressed {
-    Two depth_m{}, force_n{};
-    Two slope_n_per_m{};  // contact alone, without the lever
+    Four depth_m{}, force_n{};
+    Four slope_n_per_m{};  // of the contact alone, without the lever
   };
   // Ways as above. `root`: roots of the depths from which the search begins, positive; changed to those of its end.
-  Pressed at(const Two& way_m, Two& root) const;
+  void at(const Four& way_m, Four& root, Pressed& pressed) const;
 
  private:
-  Pressed blunt_at(const Two& way_m, Two& root) const;
-  Pressed sharp_at(const Two& way_m) const;
+  void blunt_at(const Four& way_m, Four& root, Pressed& pressed) const;
+  void sharp_at(const Four& way_m, Pressed& pressed) const;
 
   const Indenter& indenter_;
   std::optional<PowerLaw> power_;

@@ -82,6 +82,29 @@ TEST(ColumnTable, OfOneWayHasNoTurnInItsNoise) {
   for (const auto& point : curve->points) EXPECT_EQ(point.branch, Branch::Approach);
 }
 
+// A wave of Igor that is longer than the others fills them up.
+TEST(ColumnTable, LeavesOutAnEndWithoutNumbers) {
+  const CurveReading two = columns("height:um force:nN");
+  const std::size_t whole = parse_curve(table(";"), "a.csv", two)->points.size();
+  for (const char* end : {"NaN;NaN\n", "nan;nan\n;\n", ";\n;\n", "; nan\n\n"}) {
+    const auto curve = parse_curve(table(";") + end, "a.csv", two);
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_EQ(curve->points.size(), whole);
+    EXPECT_THAT(curve->metadata.remarks, testing::Contains(HasSubstr("have no numbers: they are left out"))) << end;
+  }
+  EXPECT_THAT(refusal(table(";") + "NaN;NaN\n1;2\n", two), HasSubstr("line 31 has numbers, and the 1 lines before"));
+}
+
+TEST(ColumnTable, WithTheRowsOfTwoCurvesIsRefused) {
+  std::string cycle;
+  for (int i = 0; i <= 24; ++i)
+    cycle += fmt::format("{} {}\n", 100 * std::abs(12 - i), std::max(0, 4 - std::abs(12 - i)));
+  const CurveReading two = columns("height:nm force:nN");
+  EXPECT_TRUE(parse_curve(cycle, "a.txt", two));
+  EXPECT_THAT(refusal(cycle + cycle, two),
+              HasSubstr("turn again after their turn in row 13 of 50: it holds more than"));
+}
+
 // "25 2" above 25 lines of 2 columns would be a point 25 um high
 TEST(ColumnTable, HasNoPointOfItsCounts) {
   const auto rows_of = [](double first_um) {

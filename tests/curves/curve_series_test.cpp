@@ -5,10 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "formats/handed_curve.h"
 #include "formats/tab_file.h"
 #include "support/archives/jpk_map.h"
 #include "support/archives/stored_zip.h"
@@ -51,6 +53,8 @@ TEST(HandedCurve, IsTheSameBitForBitAndWhole) {
   curve.points[5].force = physics::Force(1.0 / 3.0 * 1e-9);
   curve.metadata.remarks = {"it is a test"};
   curve.metadata.position = CurvePosition{1e-6 / 7.0, -2e-6};
+  curve.metadata.pixel = MapPixel{{8, 4, 1e-5, 5e-6, 0.0, -1e-6}, 3, 2};
+  curve.metadata.instrument = "JPK";
   curve.metadata.parameters = {{"tip_radius_m", "5e-08"}};
   const std::string bytes = handed_bytes(curve);
   const RecordedCurve again = read_handed(bytes);
@@ -65,7 +69,11 @@ TEST(HandedCurve, IsTheSameBitForBitAndWhole) {
   EXPECT_EQ(again.metadata.parameters, curve.metadata.parameters);
   EXPECT_EQ(again.metadata.position->x_m, curve.metadata.position->x_m);
   EXPECT_EQ(again.metadata.spring_constant, curve.metadata.spring_constant);
-  EXPECT_EQ(read_handed(tab_bytes(curve)).points.size(), curve.points.size()) << "from a program that writes .tab";
+  ASSERT_TRUE(again.metadata.pixel.has_value());
+  EXPECT_EQ(again.metadata.pixel->grid, curve.metadata.pixel->grid);
+  EXPECT_EQ(again.metadata.pixel->column, 3U);
+  EXPECT_EQ(again.metadata.instrument, "JPK");
+  EXPECT_ANY_THROW(read_handed(tab_bytes(curve))) << "of a file, not of another process";
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     EXPECT_ANY_THROW(read_handed(std::string_view(bytes).substr(0, size))) << size;
   }
@@ -79,6 +87,18 @@ TEST(HandedCurve, IsTheSameBitForBitAndWhole) {
     }
     EXPECT_GE(at, 17U);
   }
+}
+
+TEST(HandedCurve, WithImpossibleMetadataIsRefused) {
+  RecordedCurve curve = risen(3);
+  curve.metadata.sensitivity_m_per_v = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_ANY_THROW(read_handed(handed_bytes(curve)));
+  curve.metadata.sensitivity_m_per_v = 6e-8;
+  curve.metadata.pixel = MapPixel{{8, 4, 1e-5, 5e-6, 0.0, 0.0}, 8, 2};
+  EXPECT_ANY_THROW(read_handed(handed_bytes(curve))) << "column 8 of 8";
+  curve.metadata.pixel.reset();
+  curve.metadata.position = CurvePosition{std::numeric_limits<double>::infinity(), 0.0};
+  EXPECT_ANY_THROW(read_handed(handed_bytes(curve)));
 }
 
 TEST(CurveSeries, OfAMapIsReadByPartsInOrder) {

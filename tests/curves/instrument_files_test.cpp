@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -76,7 +77,7 @@ std::map<std::string, std::string> jpk_entries(bool calibrated = true) {
   return {
       {"header.properties", "force-scan-series.description.instrument=NanoWizard\n"},
       {"shared-data/header.properties",
-       "lcd-info.3.encoder.type=signedshort\nlcd-info.3.encoder.scaling.offset=0\n"
+       "lcd-info.3.encoder.type=signedshort-limited\nlcd-info.3.encoder.scaling.offset=0\n"
        "lcd-info.3.encoder.scaling.multiplier=1\nlcd-info.3.conversion-set.conversions.base=volts\n"
        "lcd-info.3.conversion-set.conversion.nominal.defined=true\n"
        "lcd-info.3.conversion-set.conversion.nominal.base-calibration-slot=volts\n"
@@ -138,6 +139,55 @@ TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(error_of(test::stored_zip({{"a.txt", "text"}})), HasSubstr("a zip archive, but not one of JPK's"));
   EXPECT_THAT(error_of(test::stored_zip({{"[Content_Types].xml", "<Types/>"}})),
               HasSubstr("it is a file of Excel or another Office program; save its table as .csv"));
+}
+
+// As JPK's own program writes a corrected curve, and older instruments a height that they did not measure.
+TEST(JpkFile, HasNumbersWithoutAnEncoderAndThoseOfARule) {
+  auto entries = jpk_entries();
+  const std::string stored = entries["segments/0/channels/vDeflection.dat"];
+  std::string real;
+  for (std::size_t i = 0; i < stored.size(); i += 2) {
+    const auto bits = std::bit_cast<std::uint32_t>(i < 20 ? 0.0F : 0.25F);
+    for (const unsigned shift : {24U, 16U, 8U, 0U}) real.push_back(static_cast<char>(bits >> shift));
+  }
+  for (const char* segment : {"segments/0/", "segments/2/"}) {
+    std::string& properties = entries[std::string(segment) + "segment-header.properties"];
+    const std::size_t encoder = properties.find("channel.vDeflection.data.encoder.type=");
+    ASSERT_NE(encoder, std::string::npos);
+    properties.erase(encoder, properties.find('\n', encoder) - encoder);
+    properties +=
+        "channel.vDeflection.data.type=float-data\nchannel.height.data.type=raster-data\n"
+        "channel.height.data.num-points=20\nchannel.height.data.step=";
+    properties +=
+        segment[9] == '0' ? "-1e-8\nchannel.height.data.start=1e-6\n" : "1e-8\nchannel.height.data.start=8e-7\n";
+    properties += "channel.height.conversion-set.conversions.base=calibrated\n";
+    entries[std::string(segment) + "channels/vDeflection.dat"] = real;
+    entries.erase(std::string(segment) + "channels/measuredHeight.dat");
+  }
+  const auto curve = parse_curve(test::stored_zip(entries), "a.jpk-force");
+  ASSERT_TRUE(curve.has_value()) << curve.error().message;
+  ASSERT_EQ(curve->points.size(), 40U);
+  EXPECT_DOUBLE_EQ(curve->points[3].z.si, 1e-6 - 3e-8);
+  EXPECT_DOUBLE_EQ(curve->points[23].z.si, 8e-7 + 3e-8);
+  EXPECT_DOUBLE_EQ(curve->points[15].force.si, 0.25 * kSensitivity * kSpringConstant);
+  entries["segments/0/segment-header.properties"] += "channel.height.data.num-points=-1\n";
+  EXPECT_THAT(error_of(test::stored_zip(entries)), HasSubstr("\"height\" is said to be raster-data, but not of which"));
+}
+
+TEST(JpkFile, ThatBeginsInContactIsTheSame) {
+  auto entries = jpk_entries();
+  for (const char* of : {"segment-header.properties", "channels/measuredHeight.dat", "channels/vDeflection.dat"}) {
+    std::swap(entries[std::string("segments/0/") + of], entries[std::string("segments/2/") + of]);
+  }
+  const auto usual = parse_curve(test::stored_zip(jpk_entries()), "a.jpk-force");
+  const auto turned = parse_curve(test::stored_zip(entries), "a.jpk-force");
+  ASSERT_TRUE(turned.has_value()) << turned.error().message;
+  ASSERT_EQ(turned->points.size(), usual->points.size());
+  for (std::size_t i = 0; i < usual->points.size(); ++i) {
+    EXPECT_EQ(turned->points[i].z, usual->points[i].z);
+    EXPECT_EQ(turned->points[i].branch, usual->points[i].branch);
+  }
+  EXPECT_THAT(turned->metadata.remarks, testing::Contains(HasSubstr("its first part leads away from the sample")));
 }
 
 // Contact times of cells and ligands are as long as those of creep and relaxation, and in the same segments.

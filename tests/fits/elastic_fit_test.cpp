@@ -389,6 +389,7 @@ TEST(ElasticFit, OfACurveThatIsNoneIsRefusedOrNotTrusted) {
     const auto found = fit(samples, setup_of(tip), why);
     if (found) {
       EXPECT_EQ(found->trust, Trust::No) << samples.size() << ": " << found->modulus_pa;
+      for (const Found& doubt : found->doubts) EXPECT_FALSE(std::isnan(doubt.figure)) << row_of(doubt.doubt).name;
     } else {
       EXPECT_NE(why, "");
     }

@@ -108,6 +108,13 @@ class TableReader {
       return;
     }
     const std::size_t bad = first_bad(line, separator_);
+    if (bad < columns_.size() && is_padding()) {
+      ++padding_;
+      return;
+    }
+    if (padding_ > 0) {
+      throw CurveError(fmt::format("line {} has numbers, and the {} lines before it have none", number, padding_));
+    }
     if (bad < columns_.size() && bad >= fields_.size()) {
       throw CurveError(
           fmt::format("line {} has {} columns, and --columns names {}", number, fields_.size(), columns_.size()));
@@ -142,6 +149,7 @@ class TableReader {
   // Behind the last line.
   void finish() {
     leave_out_counts();
+    if (padding_ > 0) remarks_.push_back(fmt::format("its last {} lines have no numbers: they are left out", padding_));
     // "0,5,1,2" has two numbers with decimal commas, or four
     if (more_fields_at_ == 0 || points_) return;
     throw CurveError(
@@ -215,6 +223,16 @@ class TableReader {
     --rows_;
   }
 
+  // Whether the fields of the last line are what fills up a column that is shorter than others, as in Igor's tables.
+  bool is_padding() const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind == ColumnKind::Nothing || i >= fields_.size()) continue;
+      const std::string_view field = trimmed(fields_[i]);
+      if (!field.empty() && field != "NaN" && field != "nan" && field != "NAN") return false;
+    }
+    return true;
+  }
+
   bool has_more_fields() const {
     const auto rest = fields_.begin() + static_cast<std::ptrdiff_t>(columns_.size());
     return std::any_of(rest, fields_.end(), [](std::string_view field) { return !trimmed(field).empty(); });
@@ -238,7 +256,7 @@ class TableReader {
   std::vector<std::string_view> fields_;
   std::vector<std::string> remarks_;
   std::string_view heading_;  // the last line above the numbers
-  std::size_t rows_ = 0;
+  std::size_t rows_ = 0, padding_ = 0;
   std::size_t more_fields_at_ = 0, most_fields_ = 0;  // first line with more fields than columns; 0: none
   bool points_ = false, commas_ = false;              // decimal marks so far
   char separator_ = ' ';

@@ -6,9 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 #include <functional>
+#include <numeric>
+#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "curves/curve_error.h"
 
@@ -35,6 +39,10 @@ std::size_t number_of_two(std::string_view bytes, std::size_t at) {
   return static_cast<unsigned char>(bytes[at]) + 256U * static_cast<unsigned char>(bytes[at + 1]);
 }
 
+std::size_t number_of_four(std::string_view bytes, std::size_t at) {
+  return number_of_two(bytes, at) + 65536U * number_of_two(bytes, at + 2);
+}
+
 // The header that begins there; empty if none does.
 std::string_view header_at(std::string_view bytes, std::size_t at) {
   if (at > bytes.size() || bytes.size() - at < kHeader || bytes.substr(at, kSignature.size()) != kSignature) return {};
@@ -47,6 +55,39 @@ std::string_view header_at(std::string_view bytes, std::size_t at) {
 std::string_view name_in(std::string_view header) {
   const std::string_view name = header.substr(kHeader, std::min(number_of_two(header, 28), kLongestName - 1));
   return name.substr(0, name.find('\0'));
+}
+
+// What a header says of its entry.
+struct Packed {
+  std::string_view bytes;
+  std::size_t size = 0;  // unpacked
+  std::size_t checksum = 0;
+  bool deflated = false;
+};
+
+// Empty for an entry that is encrypted, larger than 4 GB, packed by another method than deflation, or contradicted by
+// its local header (APPNOTE 4.3.7).
+std::optional<Packed> packed_entry(std::string_view bytes, std::string_view header) {
+  constexpr std::size_t kLocalHeader = 30, kStored = 0, kDeflated = 8, kFarther = 0xffffffff;
+  const std::size_t method = number_of_two(header, 10), packed = number_of_four(header, 20);
+  const Packed found{{}, number_of_four(header, 24), number_of_four(header, 16), method == kDeflated};
+  const std::size_t local = number_of_four(header, 42);
+  constexpr std::size_t kEncrypted = 1;
+  if ((number_of_two(header, 8) & kEncrypted) != 0 || (method != kStored && method != kDeflated)) return std::nullopt;
+  if (packed == kFarther || found.size == kFarther || local == kFarther) return std::nullopt;
+  if (method == kStored && packed != found.size) return std::nullopt;
+  if (local > bytes.size() || bytes.size() - local < kLocalHeader) return std::nullopt;
+  const std::string_view here = bytes.substr(local);
+  const std::size_t name = number_of_two(here, 26), begin = kLocalHeader + name + number_of_two(here, 28);
+  if (!here.starts_with("PK\x03\x04") || number_of_two(here, 8) != method || name != number_of_two(header, 28)) {
+    return std::nullopt;
+  }
+  if (begin > here.size() || here.size() - begin < packed) return std::nullopt;
+  return Packed{here.substr(begin, packed), found.size, found.checksum, found.deflated};
+}
+
+std::size_t checksum_of(std::string_view bytes) {
+  return ::crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
 }
 
 }  // namespace
@@ -103,6 +144,7 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::function<void(std::str
     }
   }
   if (places_.empty()) {
+    listed_here_ = false;
     // bytes before the archive move its headers; minizip knows how far
     std::array<char, kLongestName> buffer{};
     for (int next = unzGoToFirstFile(archive_.get()); next == UNZ_OK; next = unzGoToNextFile(archive_.get())) {
@@ -110,24 +152,87 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::function<void(std::str
       if (unzGetFilePos64(archive_.get(), &at) == UNZ_OK) add(name, at);
     }
   }
-  std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.hash < b.hash; });
+  sort_by_hash();
 }
 
-bool ZipArchive::find(std::string_view name) const {
-  const std::size_t hash = std::hash<std::string_view>()(name);
-  auto place = std::lower_bound(places_.begin(), places_.end(), hash,
-                                [](const Place& a, std::size_t wanted) { return a.hash < wanted; });
-  std::array<char, kLongestName> buffer{};
-  for (; place != places_.end() && place->hash == hash; ++place) {
-    if (unzGoToFilePos64(archive_.get(), &place->at) == UNZ_OK && name_of_entry(archive_.get(), buffer) == name)
-      return true;
+// By the first bits of their hashes, of which about one entry has the same: the rest of the order would take seconds.
+void ZipArchive::sort_by_hash() {
+  constexpr unsigned kHashBits = 64;
+  const unsigned bits = std::max(1U, static_cast<unsigned>(std::bit_width(places_.size())));
+  begin_shift_ = kHashBits - bits;
+  begin_of_.assign((std::size_t{1} << bits) + 1, 0);
+  for (const Place& place : places_) ++begin_of_[(place.hash >> begin_shift_) + 1];
+  std::partial_sum(begin_of_.begin(), begin_of_.end(), begin_of_.begin());
+  std::vector<Place> sorted(places_.size());
+  std::vector<std::uint32_t> next(begin_of_);
+  for (const Place& place : places_) sorted[next[place.hash >> begin_shift_]++] = place;
+  places_ = std::move(sorted);
+  // of two entries of one name the first counts, wherever another one was found before
+  in_order_ = listed_here_;
+  for (std::size_t i = 0; i < places_.size() && in_order_; ++i) {
+    const std::size_t end = begin_of_[(places_[i].hash >> begin_shift_) + 1];
+    for (std::size_t k = i + 1; k < end; ++k) in_order_ = in_order_ && places_[k].hash != places_[i].hash;
   }
-  return false;
+}
+
+std::optional<ZipArchive::Place> ZipArchive::find(std::string_view name) const {
+  const auto is_there = [&](const Place& place) {
+    if (!listed_here_) {
+      std::array<char, kLongestName> buffer{};
+      return unzGoToFilePos64(archive_.get(), &place.at) == UNZ_OK && name_of_entry(archive_.get(), buffer) == name;
+    }
+    const std::string_view header = header_at(cursor_->bytes, place.at.pos_in_zip_directory);
+    if (header.empty() || name_in(header) != name) return false;
+    last_ = place;
+    next_ = {0, {place.at.pos_in_zip_directory + header.size(), place.at.num_of_file + 1}};
+    return true;
+  };
+  if (in_order_) {
+    for (const Place near : {last_, next_}) {
+      if (is_there(near)) return near;
+    }
+  }
+  const std::size_t hash = std::hash<std::string_view>()(name), first = hash >> begin_shift_;
+  for (std::size_t i = begin_of_[first]; i < begin_of_[first + 1]; ++i) {
+    const Place& place = places_[i];
+    if (place.hash == hash && is_there(place)) return place;
+  }
+  return std::nullopt;
+}
+
+bool ZipArchive::Inflater::unpack(std::string_view packed, std::string& bytes) {
+  constexpr int kNoHeader = -MAX_WBITS;
+  if (!made_ && ::inflateInit2(&stream_, kNoHeader) != Z_OK) return false;
+  if (made_ && ::inflateReset(&stream_) != Z_OK) return false;
+  made_ = true;
+  // zlib does not write there
+  stream_.next_in = const_cast<unsigned char*>(reinterpret_cast<const unsigned char*>(packed.data()));
+  stream_.avail_in = static_cast<unsigned>(packed.size());
+  stream_.next_out = reinterpret_cast<unsigned char*>(bytes.data());
+  stream_.avail_out = static_cast<unsigned>(bytes.size());
+  return ::inflate(&stream_, Z_FINISH) == Z_STREAM_END && stream_.avail_out == 0;
 }
 
 std::string ZipArchive::entry(std::string_view name, std::size_t most_bytes) const {
+  const auto place = find(name);
+  if (!place) throw CurveError(fmt::format("its archive has no \"{}\"", name));
+  const auto packed = listed_here_
+                          ? packed_entry(cursor_->bytes, header_at(cursor_->bytes, place->at.pos_in_zip_directory))
+                          : std::nullopt;
+  if (!packed) return unpacked(*place, name, most_bytes);
+  if (packed->size > most_bytes) throw CurveError(fmt::format("\"{}\" in its archive is too large", name));
+  std::string bytes(packed->deflated ? std::string(packed->size, '\0') : std::string(packed->bytes));
+  const bool whole = !packed->deflated || inflater_.unpack(packed->bytes, bytes);
+  if (!whole || checksum_of(bytes) != packed->checksum) {
+    throw CurveError(fmt::format("\"{}\" in its archive is damaged", name));
+  }
+  return bytes;
+}
+
+std::string ZipArchive::unpacked(const Place& place, std::string_view name, std::size_t most_bytes) const {
   unz_file_info64 info{};
-  if (!find(name) || unzGetCurrentFileInfo64(archive_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK) {
+  if (unzGoToFilePos64(archive_.get(), &place.at) != UNZ_OK ||
+      unzGetCurrentFileInfo64(archive_.get(), &info, nullptr, 0, nullptr, 0, nullptr, 0) != UNZ_OK) {
     throw CurveError(fmt::format("its archive has no \"{}\"", name));
   }
   if (info.uncompressed_size > most_bytes) throw CurveError(fmt::format("\"{}\" in its archive is too large", name));

@@ -40,20 +40,33 @@ using Clock = std::chrono::steady_clock;
 
 // more than the text of the largest curve
 constexpr std::size_t kMostResultBytes = std::size_t{1} << 30U;
+constexpr int kPipeBytes = 1 << 18;
+
+// Appends what the other end has written, at most `most` bytes; waits for it until `end`.
+enum class Came { Bytes, Nothing, Late };  // Nothing: the other end is closed
+Came append_from(int descriptor, std::size_t most, Clock::time_point end, std::string& bytes) {
+  constexpr std::size_t kAtOnce = 65536;
+  for (;;) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    pollfd watched{.fd = descriptor, .events = POLLIN, .revents = 0};
+    if (left.count() <= 0) return Came::Late;
+    if (::poll(&watched, 1, static_cast<int>(left.count())) <= 0) continue;
+    char buffer[kAtOnce];
+    const ssize_t count = ::read(descriptor, buffer, std::min(sizeof(buffer), most));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return Came::Nothing;
+    bytes.append(buffer, static_cast<std::size_t>(count));
+    return Came::Bytes;
+  }
+}
 
 // Reads `most` bytes, or all until the other end is closed. Empty if neither happens before `end`.
 std::optional<std::string> read_until(int descriptor, std::size_t most, Clock::time_point end) {
   std::string bytes;
-  char buffer[65536];
   while (bytes.size() < most) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-    pollfd watched{.fd = descriptor, .events = POLLIN, .revents = 0};
-    if (left.count() <= 0) return std::nullopt;
-    if (::poll(&watched, 1, static_cast<int>(left.count())) <= 0) continue;
-    const ssize_t count = ::read(descriptor, buffer, std::min(sizeof(buffer), most - bytes.size()));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) break;
-    bytes.append(buffer, static_cast<std::size_t>(count));
+    const Came came = append_from(descriptor, most - bytes.size(), end, bytes);
+    if (came == Came::Late) return std::nullopt;
+    if (came == Came::Nothing) break;
   }
   return bytes;
 }
@@ -106,6 +119,8 @@ Forked forked(const ChildWork& work) {
   if (::pipe2(ends, O_CLOEXEC) != 0)
     throw std::runtime_error(std::string("cannot make a pipe: ") + core::system_error(errno));
   core::FileDescriptor from_child(ends[0]), to_parent(ends[1]);
+  // a child that need not wait for its parent works while that one fits; less room is no fault
+  ::fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);
   const pid_t parent = ::getpid();
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + core::system_error(errno));
@@ -261,19 +276,32 @@ ConfinedStream::~ConfinedStream() {
   ::waitpid(child_, nullptr, 0);
 }
 
+std::optional<std::string_view> ConfinedStream::bytes(std::size_t count, Clock::time_point end) {
+  while (unread_.size() - read_ < count) {
+    unread_.erase(0, read_);
+    read_ = 0;
+    const Came came = append_from(from_child_.get(), kMostResultBytes, end, unread_);
+    if (came == Came::Late) return std::nullopt;
+    if (came == Came::Nothing) break;
+  }
+  const std::string_view found = std::string_view(unread_).substr(read_, count);
+  read_ += found.size();
+  return found;
+}
+
 std::optional<ChildMessage> ConfinedStream::next() {
   if (child_ < 0) return std::nullopt;
   const auto end = Clock::now() + patience_;
   MessageHead head;
-  const auto begun = read_until(from_child_.get(), sizeof(head), end);
+  const auto begun = bytes(sizeof(head), end);
   if (!begun) throw_late(patience_);
   if (begun->size() == sizeof(head)) {
     std::memcpy(&head, begun->data(), sizeof(head));
     if (head.size > kMostResultBytes) throw CurveError(on_death_);
-    auto text = read_until(from_child_.get(), head.size, end);
+    const auto text = bytes(head.size, end);
     if (!text) throw_late(patience_);
     if (text->size() < head.size) throw CurveError(on_death_);
-    return ChildMessage{head.fault != 0, std::move(*text)};
+    return ChildMessage{head.fault != 0, std::string(*text)};
   }
   int status = 0;
   if (!ended_by(end, child_, status)) throw_late(patience_);

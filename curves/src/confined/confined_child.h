@@ -57,8 +57,8 @@ using PutMessage = std::function<void(const ChildMessage&)>;
 // For a program that was started for a stream: a message on stdout.
 void put_message(const ChildMessage& message);
 
-// A confined child that continues while its messages are read, with the rules of in_confined_child(). At most 64 KiB
-// wait unread. One thread, the one that made it. Not moved.
+// A confined child that continues while its messages are read, with the rules of in_confined_child(). At most 256 KiB
+// waits unread. One thread, the one that made it. Not moved.
 class ConfinedStream {
  public:
   // `on_death` must outlive the object.
@@ -76,10 +76,15 @@ class ConfinedStream {
   std::optional<ChildMessage> next();
 
  private:
+  // Bytes that came in are kept until they are asked for. Returns less than `count` at the end, and none too late.
+  std::optional<std::string_view> bytes(std::size_t count, std::chrono::steady_clock::time_point end);
+
   const char* on_death_;
   std::chrono::milliseconds patience_;
   pid_t child_ = -1;
   core::FileDescriptor from_child_;
+  std::string unread_;
+  std::size_t read_ = 0;  // of these
 };
 
 }  // namespace afm::curves

@@ -147,10 +147,31 @@ std::optional<std::pair<std::size_t, std::size_t>> rest_at(const std::vector<dou
   return std::pair(static_cast<std::size_t>(first - heights.begin()), static_cast<std::size_t>(last - heights.begin()));
 }
 
+// Throws if the tip comes near its turn once more: the rows of two curves would be taken for one.
+void check_one_curve(const std::vector<double>& heights, std::size_t turn) {
+  constexpr double kFar = 0.5, kNear = 0.25;  // shares of the way
+  if (turn == heights.size()) return;
+  const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+  const auto way = [&, range = *high - *low](std::size_t row) {
+    return std::abs(heights[row] - heights[turn - 1]) / range;
+  };
+  bool was_far = false;
+  for (std::size_t row = turn; row < heights.size(); ++row) {
+    was_far = was_far || way(row) > kFar;
+    if (was_far && way(row) < kNear) {
+      throw CurveError(fmt::format(
+          "its heights turn again after their turn in row {} of {}: it holds more than one curve; write one "
+          "approach and one retract into each file",
+          turn, heights.size()));
+    }
+  }
+}
+
 // 0 on the way to the turn and 1 on the way back, or 1 where the tip rests and 2 on the way back.
 std::vector<double> segments_of(const std::vector<double>& heights) {
   std::vector<double> segments(heights.size(), 0.0);
   const std::size_t turn = turn_of(heights);
+  check_one_curve(heights, turn);
   const auto from = [&](std::size_t row) { return segments.begin() + static_cast<std::ptrdiff_t>(row); };
   std::fill(from(turn), segments.end(), 1.0);
   if (turn == heights.size()) return segments;

@@ -13,7 +13,7 @@
 #include "curves/curve_file.h"
 #include "curves/curve_series.h"
 #include "formats/format_table.h"
-#include "formats/tab_file.h"
+#include "formats/handed_curve.h"
 
 namespace afm::curves {
 

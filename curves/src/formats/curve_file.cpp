@@ -25,6 +25,7 @@
 #include "formats/column_table.h"
 #include "formats/confined_series.h"
 #include "formats/format_table.h"
+#include "formats/handed_curve.h"
 #include "formats/igor_file.h"
 #include "formats/jpk_file.h"
 #include "formats/nanoscope_curve.h"
@@ -178,6 +179,11 @@ void check(RecordedCurve& curve) {
     throw CurveError(fmt::format("its spring constant of {} N/m is not within 0 to 1 MN/m", k->si));
   }
   const auto is_approach = [](const auto& point) { return point.branch == physics::Branch::Approach; };
+  const auto approach = std::find_if(curve.points.begin(), curve.points.end(), is_approach);
+  if (approach != curve.points.begin() && std::all_of(approach, curve.points.end(), is_approach) &&
+      approach != curve.points.end()) {
+    put_second_part_first(static_cast<std::size_t>(approach - curve.points.begin()), curve);
+  }
   if (!std::is_partitioned(curve.points.begin(), curve.points.end(), is_approach)) {
     throw CurveError("it does not approach once and retract once");
   }

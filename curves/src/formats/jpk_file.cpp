@@ -28,6 +28,7 @@ void add_segment(const JpkSegment& segment, physics::Branch branch, const CurveR
   const std::vector<double> z = segment.heights(reading), force = segment.values("vDeflection", "force", reading);
   if (z.size() != force.size()) throw CurveError("the channels of a segment differ in length");
   if (curve.points.size() + z.size() > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
+  curve.points.reserve(curve.points.size() + z.size());
   for (std::size_t i = 0; i < z.size(); ++i) {
     curve.points.push_back({physics::Length(z[i]), physics::Force(force[i]), branch});
   }

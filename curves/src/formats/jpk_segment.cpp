@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -17,25 +18,46 @@ namespace {
 
 constexpr std::size_t kMostChannelBytes = 8 * kMostCurvePoints;
 
-// Storage of a channel's integers in its file.
+// Storage of a channel's numbers in its file, big-endian.
 struct Encoding {
   std::size_t bytes;
-  bool is_signed;
+  enum class Sort { Unsigned, Signed, Real } sort;
 };
 
-Encoding encoding_of(const std::string& type) {
-  if (type == "signedshort") return {2, true};
-  if (type == "unsignedshort") return {2, false};
-  if (type == "signedinteger") return {4, true};
-  if (type == "unsignedinteger") return {4, false};
-  if (type == "signedlong") return {8, true};
+// Of integers: by the name of their encoder. "signedshort-limited" has values beyond which nothing was recorded.
+Encoding encoding_of(std::string_view type) {
+  using Sort = Encoding::Sort;
+  std::string_view name(type);
+  constexpr std::string_view kLimited = "-limited";
+  if (name.ends_with(kLimited)) name.remove_suffix(kLimited.size());
+  if (name == "signedshort") return {2, Sort::Signed};
+  if (name == "unsignedshort") return {2, Sort::Unsigned};
+  if (name == "signedinteger") return {4, Sort::Signed};
+  if (name == "unsignedinteger") return {4, Sort::Unsigned};
+  if (name == "signedlong") return {8, Sort::Signed};
+  if (name == "unsignedlong") return {8, Sort::Unsigned};
   throw CurveError(fmt::format("a channel is encoded as \"{}\", which is not understood", type.substr(0, 40)));
 }
+
+// Of numbers that need no encoder, as JPK's own program writes them after a correction: by the type of the data.
+std::optional<Encoding> real_of(std::string_view type) {
+  if (type == "float-data" || type == "float") return Encoding{4, Encoding::Sort::Real};
+  if (type == "double-data" || type == "double") return Encoding{8, Encoding::Sort::Real};
+  return std::nullopt;
+}
+
+// Without a file: the same number again and again, or in even steps.
+bool is_computed(std::string_view type) { return type == "constant-data" || type == "raster-data"; }
 
 double big_endian(std::string_view bytes, Encoding encoding) {
   std::uint64_t value = 0;
   for (const char byte : bytes) value = value << 8U | static_cast<unsigned char>(byte);
-  if (!encoding.is_signed) return static_cast<double>(value);
+  if (encoding.sort == Encoding::Sort::Unsigned) return static_cast<double>(value);
+  if (encoding.sort == Encoding::Sort::Real) {
+    return bytes.size() == sizeof(double)
+               ? std::bit_cast<double>(value)
+               : static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(value)));
+  }
   const unsigned shift = static_cast<unsigned>(64 - 8 * bytes.size());
   return static_cast<double>(static_cast<std::int64_t>(value << shift)) / std::ldexp(1.0, static_cast<int>(shift));
 }
@@ -54,37 +76,70 @@ std::string JpkSegment::style() const {
 }
 
 std::size_t JpkSegment::points() const {
-  const auto type = properties_.text("channel.vDeflection.data.encoder.type");
-  const auto shared = properties_.text("channel.vDeflection.encoder.type");
-  if ((!type && !shared) || !has("vDeflection")) return 0;
-  return archive_.entry(data_file("vDeflection"), kMostChannelBytes).size() / encoding_of(type ? *type : *shared).bytes;
+  return has("vDeflection") && storage_of("vDeflection") ? recorded("vDeflection").size() : 0;
 }
 
-bool JpkSegment::has(std::string_view channel) const { return archive_.holds(data_file(channel)); }
+bool JpkSegment::has(std::string_view channel) const {
+  return archive_.holds(data_file(channel)) || is_computed(type_of(channel));
+}
+
+std::string JpkSegment::type_of(std::string_view channel) const {
+  const auto own = properties_.text(fmt::format("channel.{}.data.type", channel));
+  return own ? *own : properties_.text(fmt::format("channel.{}.type", channel)).value_or("");
+}
+
+std::optional<JpkSegment::Storage> JpkSegment::storage_of(std::string_view channel) const {
+  for (const char* folder : {"data.", ""}) {
+    std::string encoder = fmt::format("channel.{}.{}encoder.", channel, folder);
+    if (auto type = properties_.text(encoder + "type")) return Storage{std::move(*type), std::move(encoder)};
+  }
+  std::string type = type_of(channel);
+  if (!real_of(type) && !is_computed(type)) return std::nullopt;
+  return Storage{std::move(type), ""};
+}
+
+std::vector<double> JpkSegment::computed(std::string_view channel, std::string_view type) const {
+  const auto number = [&](const char* key) {
+    const auto own = properties_.number(fmt::format("channel.{}.data.{}", channel, key));
+    return own ? own : properties_.number(fmt::format("channel.{}.{}", channel, key));
+  };
+  const bool is_constant = type == "constant-data";
+  const auto count = number("num-points"), first = number(is_constant ? "value" : "start");
+  const auto step = is_constant ? std::optional(0.0) : number("step");
+  if (!count || !first || !step || !(*count >= 0.0 && *count <= static_cast<double>(kMostCurvePoints))) {
+    throw CurveError(fmt::format("channel \"{}\" is said to be {}, but not of which numbers", channel, type));
+  }
+  std::vector<double> values(static_cast<std::size_t>(*count));
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = *first + static_cast<double>(i) * *step;
+  return values;
+}
+
+std::vector<double> JpkSegment::recorded(std::string_view channel) const {
+  const auto storage = storage_of(channel);
+  if (!storage) throw CurveError(fmt::format("channel \"{}\" does not say how it is encoded", channel));
+  const bool is_encoded = !storage->encoder.empty();
+  if (!is_encoded && is_computed(storage->type)) return computed(channel, storage->type);
+  const Encoding encoding = is_encoded ? encoding_of(storage->type) : *real_of(storage->type);
+  const Linear decoded = is_encoded ? linear_at(storage->encoder + "scaling") : Linear();
+  const std::string bytes = archive_.entry(data_file(channel), kMostChannelBytes);
+  if (bytes.size() % encoding.bytes != 0) throw CurveError(fmt::format("channel \"{}\" is cut short", channel));
+  std::vector<double> values(bytes.size() / encoding.bytes);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = decoded(big_endian(std::string_view(bytes).substr(i * encoding.bytes, encoding.bytes), encoding));
+  }
+  return values;
+}
 
 std::vector<double> JpkSegment::values(std::string_view channel, const std::string& slot,
                                        const CurveReading& reading) const {
   const std::string prefix = fmt::format("channel.{}", channel);
-  const auto encoder = [&](const char* key) {
-    return properties_.text(prefix + ".data.encoder." + key) ? prefix + ".data.encoder." : prefix + ".encoder.";
-  };
-  const std::string scaling = encoder("type") + "scaling";
-  const auto type = properties_.text(encoder("type") + "type");
-  if (!type) throw CurveError(fmt::format("channel \"{}\" does not say how it is encoded", channel));
-  const Encoding encoding = encoding_of(*type);
-  std::vector<Linear> steps = conversions(prefix + ".conversion-set.conversion", base_slot(prefix), slot, reading);
-  steps.push_back(linear_at(scaling));
-
-  const std::string bytes = archive_.entry(data_file(channel), kMostChannelBytes);
-  if (bytes.size() % encoding.bytes != 0) throw CurveError(fmt::format("channel \"{}\" is cut short", channel));
-  std::vector<double> result;
-  result.reserve(bytes.size() / encoding.bytes);
-  for (std::size_t i = 0; i < bytes.size(); i += encoding.bytes) {
-    double value = big_endian(std::string_view(bytes).substr(i, encoding.bytes), encoding);
+  const std::vector<Linear> steps =
+      conversions(prefix + ".conversion-set.conversion", base_slot(prefix), slot, reading);
+  std::vector<double> values = recorded(channel);
+  for (double& value : values) {
     for (auto step = steps.rbegin(); step != steps.rend(); ++step) value = (*step)(value);
-    result.push_back(value);
   }
-  return result;
+  return values;
 }
 
 std::vector<double> JpkSegment::heights(const CurveReading& reading) const {

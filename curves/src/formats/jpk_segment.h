@@ -13,8 +13,9 @@
 
 namespace afm::curves {
 
-// One segment of a JPK curve: a folder of an archive with properties, and a raw file of big-endian integers for each
-// channel. An encoder converts the integers to volts and a chain of linear conversions these to metres and newtons.
+// One segment of a JPK curve: a folder of an archive with properties, and a raw file of big-endian numbers for each
+// channel, or a rule that makes them. An encoder converts integers to volts and a chain of linear conversions these to
+// metres and newtons.
 // Throws CurveError.
 class JpkSegment {
  public:
@@ -48,7 +49,17 @@ class JpkSegment {
     double operator()(double value) const { return multiplier * value + offset; }
   };
 
+  // How the numbers of a channel are stored: their encoder's type and its properties, or the type of data without one.
+  struct Storage {
+    std::string type, encoder;
+  };
+
   Linear linear_at(const std::string& prefix) const;
+  std::string type_of(std::string_view channel) const;
+  std::optional<Storage> storage_of(std::string_view channel) const;
+  // Numbers of a channel, mostly volts, before the conversions; those that a rule makes without a file.
+  std::vector<double> recorded(std::string_view channel) const;
+  std::vector<double> computed(std::string_view channel, std::string_view type) const;
   std::string data_file(std::string_view channel) const;
   std::string base_slot(const std::string& prefix) const;
   // The usual conversion of a channel, or, where it is not defined, the one that the file itself shows by default.

@@ -174,11 +174,26 @@ void remark_index(std::size_t index, std::size_t count, CurveMetadata& metadata)
   if (count > 1) metadata.remarks.push_back(fmt::format("it is curve {} of {}, counted from 0", index, count));
 }
 
+namespace {
+
+void remark(const char* sentence, RecordedCurve& curve) {
+  if (curve.metadata.remarks.size() < kMostRemarks) curve.metadata.remarks.emplace_back(sentence);
+}
+
+}  // namespace
+
+void put_second_part_first(std::size_t first_count, RecordedCurve& curve) {
+  const auto second = curve.points.begin() + static_cast<std::ptrdiff_t>(first_count);
+  for (auto point = curve.points.begin(); point != second; ++point) point->branch = physics::Branch::Retract;
+  for (auto point = second; point != curve.points.end(); ++point) point->branch = physics::Branch::Approach;
+  std::rotate(curve.points.begin(), second, curve.points.end());
+  curve.time_s.clear();
+  remark("its first part leads away from the sample: it is taken as the retract, and the second as the approach",
+         curve);
+}
+
 void set_directions(RecordedCurve& curve) {
   constexpr double kClearRise = 0.2;
-  const auto remark = [&](const char* sentence) {
-    if (curve.metadata.remarks.size() < kMostRemarks) curve.metadata.remarks.emplace_back(sentence);
-  };
   const auto turn = std::find_if(curve.points.begin(), curve.points.end(),
                                  [](const auto& point) { return point.branch == physics::Branch::Retract; });
   const auto count = static_cast<std::size_t>(turn - curve.points.begin());
@@ -190,23 +205,24 @@ void set_directions(RecordedCurve& curve) {
     if (contact == ContactEnd::Highest) {
       remark(
           "the force of the approach changes most at its far end: do its heights count the other way, or are approach "
-          "and retract exchanged?");
+          "and retract exchanged?",
+          curve);
     }
   } else if (contact != ContactEnd::Lowest) {
     for (CurvePoint& point : curve.points) point.z = -point.z;
-    remark("its heights rise while the tip approaches: they are counted the other way here");
+    remark("its heights rise while the tip approaches: they are counted the other way here", curve);
   } else if (rise_of(retract) < -kClearRise) {
-    throw CurveError(
-        "its approach leads away from the sample and its retract towards it: are approach and retract exchanged?");
+    put_second_part_first(count, curve);
+    return;
   } else {
     std::reverse(approach.begin(), approach.end());
     reverse_times(curve, 0, count);
-    remark("the points of its approach lead away from the sample: they are taken in the reverse order");
+    remark("the points of its approach lead away from the sample: they are taken in the reverse order", curve);
   }
   if (rise_of(retract) < -kClearRise) {
     std::reverse(retract.begin(), retract.end());
     reverse_times(curve, count, retract.size());
-    remark("the points of its retract lead towards the sample: they are taken in the reverse order");
+    remark("the points of its retract lead towards the sample: they are taken in the reverse order", curve);
   }
 }
 

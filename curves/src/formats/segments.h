@@ -26,9 +26,12 @@ void remark_left_out(std::size_t points, std::string_view when, std::string_view
 // Adds a remark on which curve of a file with several it is.
 void remark_index(std::size_t index, std::size_t count, CurveMetadata& metadata);
 
+// Exchanges the first `first_count` points, which lead away from the sample, with those behind them, and their
+// branches. Forgets the times, and adds a remark.
+void put_second_part_first(std::size_t first_count, RecordedCurve& curve);
+
 // Makes both branches lead the way that every reader of them expects: heights fall on the approach, all of which are
-// counted the other way otherwise, and rise on the retract. Adds a remark on what was turned. Throws CurveError where
-// approach and retract contradict each other.
+// counted the other way otherwise, and rise on the retract. Adds a remark on what was turned.
 void set_directions(RecordedCurve& curve);
 
 }  // namespace afm::curves

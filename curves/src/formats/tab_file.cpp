@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "bytes/file_bytes.h"
 #include "bytes/text_table.h"
 #include "core/printable.h"
 #include "core/written_by.h"
@@ -91,14 +88,6 @@ void put_heading(const RecordedCurve& curve, fmt::memory_buffer& text) {
                  curve.time_s.empty() ? "" : "\ttime");
 }
 
-// Beginning of a handed curve, which no .tab has. The heading follows, then of each point the height, the force, the
-// number of its segment and, if they are timed, the time.
-constexpr char kHanded = '\x01';
-struct HandedHead {
-  std::uint64_t heading_bytes = 0, points = 0, is_timed = 0;
-};
-constexpr std::size_t kHandedWords = sizeof(HandedHead) / sizeof(std::uint64_t);
-
 }  // namespace
 
 std::string tab_bytes(const RecordedCurve& curve) {
@@ -149,54 +138,6 @@ RecordedCurve read_tab(std::string_view bytes) {
     if (time < fields.size()) curve.time_s.push_back(number_in(fields[time], "time", lines));
   }
   check_count(metadata, curve.points.size(), bytes);
-  assign_branches(segments, curve);
-  return curve;
-}
-
-std::string handed_bytes(const RecordedCurve& curve) {
-  fmt::memory_buffer text;
-  put_heading(curve, text);
-  const bool timed = !curve.time_s.empty();
-  std::string bytes(1, kHanded);
-  bytes.reserve(1 + sizeof(HandedHead) + text.size() + curve.points.size() * (timed ? 4 : 3) * sizeof(double));
-  const auto put = [&bytes](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof(value)); };
-  put(HandedHead{text.size(), curve.points.size(), timed ? 1U : 0U});
-  bytes.append(text.data(), text.size());
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const physics::CurvePoint& point = curve.points[i];
-    put(point.z.si + 0.0);
-    put(point.force.si + 0.0);
-    put(point.branch == physics::Branch::Approach ? 0.0 : 1.0);
-    if (timed) put(curve.time_s[i]);
-  }
-  return bytes;
-}
-
-RecordedCurve read_handed(std::string_view bytes) {
-  if (!bytes.starts_with(kHanded)) return read_tab(bytes);
-  bytes.remove_prefix(1);
-  std::array<std::uint64_t, kHandedWords> head{};
-  for (std::size_t i = 0; i < kHandedWords; ++i) head[i] = number_at<std::uint64_t>(bytes, i * sizeof(std::uint64_t));
-  Lines lines(part(bytes, sizeof(HandedHead), head[0]));
-  std::string_view line;
-  const Heading heading = read_heading(lines, line);
-  RecordedCurve curve;
-  curve.metadata = heading.made_from;
-  read_afmformats_metadata(nlohmann::json::parse(heading.metadata), curve.metadata);
-  const std::string_view numbers = bytes.substr(sizeof(HandedHead) + head[0]);
-  const std::uint64_t count = head[1];
-  const bool timed = head[2] != 0;
-  const std::size_t row = (timed ? 4 : 3) * sizeof(double);
-  if (count > kMostCurvePoints || numbers.size() != count * row) throw CurveError("it was handed over incompletely");
-  std::vector<double> segments;
-  segments.reserve(count);
-  curve.points.reserve(count);
-  for (std::size_t at = 0; at < numbers.size(); at += row) {
-    const auto number = [&](std::size_t i) { return number_at<double>(numbers, at + i * sizeof(double)); };
-    curve.points.push_back({physics::Length(number(0)), physics::Force(number(1))});
-    segments.push_back(number(2));
-    if (timed) curve.time_s.push_back(number(3));
-  }
   assign_branches(segments, curve);
   return curve;
 }

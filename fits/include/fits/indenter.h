@@ -38,6 +38,10 @@ struct ShapeRow {
   bool is_exact;             // a layer of any Poisson ratio, on any base; the others have 0.5, bonded
   bool is_adhesive;          // a law of adhesion, fitted to both branches
   std::string_view meaning;  // with its source, in one line
+  // The force without adhesion. One power of the depth: d^1.5 of a tip with a radius, d^2 of one with an angle.
+  bool is_power;
+  double sharp = 0;                              // coefficient c of c tan(a) E* d^2; 0 with a radius
+  const std::array<double, 4>* layer = nullptr;  // terms by which a layer stiffens; null for one without or by a table
 };
 
 // In the order of Shape.

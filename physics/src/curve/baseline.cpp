@@ -68,12 +68,17 @@ Length middle_z(std::span<const CurvePoint> falling) {
   return 0.5 * (falling[middle].z + falling[middle - 1].z);
 }
 
+std::vector<double> residuals_of(std::span<const CurvePoint> points, const Baseline& line) {
+  std::vector<double> residuals(points.size());
+  std::transform(points.begin(), points.end(), residuals.begin(),
+                 [line](const CurvePoint& point) { return (point.force - line.at(point.z)).si; });
+  return residuals;
+}
+
 // Level and noise of a baseline whose other parts are known: median and median absolute deviation of what is left.
 void level_on(const Stretch& stretch, Baseline& line) {
   line.level = Force();
-  std::vector<double> residuals;
-  residuals.reserve(stretch.points.size());
-  for (const CurvePoint& point : stretch.points) residuals.push_back((point.force - line.at(point.z)).si);
+  std::vector<double> residuals = residuals_of(stretch.points, line);
   line.level = Force(median(residuals));  // in another order then
   for (double& residual : residuals) residual = std::abs(residual - line.level.si);
   constexpr double kNormal = 1.4826;  // standard deviation of a normal distribution over the median of its magnitudes
@@ -88,23 +93,24 @@ Baseline line_through(const Stretch& stretch, bool flat) {
     constexpr std::size_t kGroups = 32;
     const std::size_t count = stretch.points.size();
     const std::size_t groups = std::min(kGroups, count);
-    std::vector<double> z_of, force_of, slopes, force;
-    z_of.reserve(groups);
-    force_of.reserve(groups);
-    slopes.reserve(groups * groups / 2);
+    std::array<double, kGroups> z_of{}, force_of{};
+    std::vector<double> slopes(groups * groups / 2), force;
     for (std::size_t g = 0; g < groups; ++g) {
       const std::span<const CurvePoint> group =
           stretch.points.subspan(g * count / groups, (g + 1) * count / groups - g * count / groups);
-      force.clear();
-      for (const CurvePoint& point : group) force.push_back(point.force.si);
-      z_of.push_back((middle_z(group) - stretch.z_far).si);
-      force_of.push_back(median(force));
+      force.resize(group.size());
+      std::transform(group.begin(), group.end(), force.begin(), [](const CurvePoint& point) { return point.force.si; });
+      z_of[g] = (middle_z(group) - stretch.z_far).si;
+      force_of[g] = median(force);
     }
+    std::size_t pairs = 0;
     for (std::size_t a = 0; a < groups; ++a) {
       for (std::size_t b = a + 1; b < groups; ++b) {
-        if (z_of[a] != z_of[b]) slopes.push_back((force_of[a] - force_of[b]) / (z_of[a] - z_of[b]));
+        slopes[pairs] = (force_of[a] - force_of[b]) / (z_of[a] - z_of[b]);
+        pairs += z_of[a] != z_of[b] ? 1U : 0U;
       }
     }
+    slopes.resize(pairs);
     line.tilt = Stiffness(slopes.empty() ? 0.0 : median(slopes));
   }
   level_on(stretch, line);
@@ -251,11 +257,7 @@ Baseline found_line(const Falling& approach, Force greatest, bool flat) {
   for (double share = 0.25; share < 0.95; share += 0.05) {
     const std::size_t next = count_until(share);
     if (next <= count) continue;
-    std::vector<double> residuals;
-    residuals.reserve(next - count);
-    for (const CurvePoint& point : approach.between(count, next)) {
-      residuals.push_back((point.force - line.at(point.z)).si);
-    }
+    std::vector<double> residuals = residuals_of(approach.between(count, next), line);
     if (std::abs(median(residuals)) > std::max(1.5 * line.noise.si, kRoundingShare * greatest.si)) break;
     count = next;
     line = line_through({approach.first(count), approach.z_far()}, flat);

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,6 +22,33 @@ enum class Indenter { Sphere, Cone };
 // Two numbers that a processor adds or multiplies at once.
 using Two = double __attribute__((vector_size(2 * sizeof(double))));
 
+Two two_at(const double* values) {
+  Two two;
+  std::memcpy(&two, values, sizeof two);
+  return two;
+}
+
+using TwoIntegers = std::int64_t __attribute__((vector_size(2 * sizeof(std::int64_t))));
+
+// The same bits.
+TwoIntegers integers_in(const Two& two) {
+  TwoIntegers bits;
+  std::memcpy(&bits, &two, sizeof bits);
+  return bits;
+}
+
+// Sums over the points that touch.
+struct Sums {
+  Two force{}, squares{}, with_rest{}, with_tilt{};
+
+  void add(const Two& here, const Two& rest, const Two& tilt) {
+    force += here;
+    squares += here * here;
+    with_rest += here * rest;
+    with_tilt += here * tilt;
+  }
+};
+
 // Force as a share of that at the deepest point, by depth as a share of the deepest one: the inverse of
 // x = (1 - s) g^(1/p) + s g, where s is the lever's share of the depth at the deepest point.
 class ForceShape {
@@ -31,41 +60,51 @@ class ForceShape {
       const double depth = static_cast<double>(node) / kSteps;
       for (int i = 0; i < kMostIterations; ++i) {
         const double half = std::sqrt(root);
-        const double force = indenter == Indenter::Sphere ? root * half : root * root;
+        const double here = indenter == Indenter::Sphere ? root * half : root * root;
         const double slope = indenter == Indenter::Sphere ? 1.5 * half : 2.0 * root;
         const double step =
-            ((1.0 - lever_share) * root + lever_share * force - depth) / (1.0 - lever_share + lever_share * slope);
+            ((1.0 - lever_share) * root + lever_share * here - depth) / (1.0 - lever_share + lever_share * slope);
         root -= step;
         if (step < 1e-12) break;
       }
-      force_[node] = indenter == Indenter::Sphere ? root * std::sqrt(root) : root * root;
+      nodes_[node] = indenter == Indenter::Sphere ? root * std::sqrt(root) : root * root;
     }
   }
 
-  // A depth between two nodes, the same for every shape.
-  struct Place {
-    std::size_t node = 0;
-    double behind = 0.0;  // distance from the node
+  // Two depths between nodes, the same for every shape.
+  struct Places {
+    TwoIntegers node{};
+    Two behind{};  // distances from the nodes
   };
-  static Place place_of(double depth) {
-    const double place = std::min(depth, 1.0) * kSteps;
-    const auto node = std::min(static_cast<std::size_t>(place), kSteps - 1);
-    return {node, place - static_cast<double>(node)};
-  }
-  double at(const Place& place) const {
-    return nodes()[place.node] + place.behind * (nodes()[place.node + 1] - nodes()[place.node]);
+  static Places places_of(const Two& depth) {
+    // added to this number, one is rounded to an integer, and its last bits are that integer
+    constexpr double kRounds = 0x1.8p52;
+    const Two one = depth < 1.0 ? depth : Two{1.0, 1.0}, place = one * static_cast<double>(kSteps);
+    const Two least{kRounds, kRounds}, most = least + static_cast<double>(kSteps - 1);
+    const Two below = place - 0.5 + kRounds, bounded = below < most ? below : most;
+    const Two rounded = bounded > least ? bounded : least;
+    return {integers_in(rounded) - integers_in(least), place - (rounded - kRounds)};
   }
 
   // Forces at the nodes, for a loop without checks.
-  const double* nodes() const { return force_.data(); }
+  const double* nodes() const { return nodes_.data(); }
+
+  // Between two nodes.
+  double at(std::int64_t node, double behind) const {
+    const Two ends = two_at(nodes() + node);
+    return ends[0] + behind * (ends[1] - ends[0]);
+  }
 
   // 0 outside the contact.
-  double at(double depth) const { return depth <= 0.0 ? 0.0 : at(place_of(depth)); }
+  double at(double depth) const {
+    const Places place = places_of(Two{depth, depth});
+    return depth <= 0.0 ? 0.0 : at(place.node[0], place.behind[0]);
+  }
 
  private:
-  static constexpr std::size_t kSteps = 128;
+  static constexpr int kSteps = 128;
   static constexpr int kMostIterations = 20;
-  std::array<double, kSteps + 1> force_{};
+  std::array<double, kSteps + 1> nodes_{};
 };
 
 // The shapes for evenly spaced shares of the lever, 1 MB for both indenters, made once in some milliseconds: a search
@@ -80,7 +119,7 @@ class ForceShapes {
   static constexpr int kShares = 512;
 
   // The shape for a share in units of 1/kShares.
-  const ForceShape& at(std::size_t share) const { return shapes_[share]; }
+  const ForceShape& at(int share) const { return shapes_[static_cast<std::size_t>(share)]; }
 
  private:
   explicit ForceShapes(Indenter indenter) {
@@ -95,7 +134,7 @@ class ForceShapes {
 struct PlaceFit {
   double taken = -1.0;  // reduction of the sum of squares
   double contact = 0.0;
-  double lever_share = 0.0;
+  int share = 0;  // of the lever, in units of 1/ForceShapes::kShares
   Indenter indenter = Indenter::Sphere;
 };
 
@@ -114,13 +153,15 @@ class Misfit {
     for (const double rest : rest_) squares_ += rest * rest;
     inner_rest_.assign(rest_.rbegin(), rest_.rend());
     inner_tilt_.assign(tilt_.rbegin(), tilt_.rend());
+    inner_z_.assign(profile.z.rbegin(), profile.z.rend());
+    inner_z_.push_back(inner_z_.back());  // so that there is a pair for the last one
   }
 
   double squares() const { return squares_; }
 
   // The points that touch, from the deepest one, if the contact is there.
   struct Places {
-    std::vector<std::size_t> node;
+    std::vector<std::int64_t> node;
     std::vector<double> behind;
   };
   void find_places(double contact, Places& places) const {
@@ -129,44 +170,42 @@ class Misfit {
     places.node.resize(count);
     places.behind.resize(count);
     const double per_depth = 1.0 / (contact - profile_.z.back());
-    const double* z = profile_.z.data() + profile_.z.size();
-    std::size_t* node = places.node.data();
-    for (double& behind : places.behind) {
-      const ForceShape::Place place = ForceShape::place_of((contact - *--z) * per_depth);
-      *node++ = place.node;
-      behind = place.behind;
-    }
-  }
-
-  // Two points at once.
-  double taken_by(const ForceShape& shape, const Places& places) const {
-    const double* const nodes = shape.nodes();
-    const std::size_t* const node = places.node.data();
-    const std::size_t count = places.node.size();
-    Two sum{}, squares{}, with_force{}, with_tilt{};
-    const auto add = [&](const Two& force, const Two& rest, const Two& tilt) {
-      sum += force;
-      squares += force * force;
-      with_force += force * rest;
-      with_tilt += force * tilt;
-    };
-    const auto two_at = [](const std::vector<double>& values, std::size_t i) {
-      const double* const here = values.data() + i;
-      return Two{here[0], here[1]};
+    const auto find = [&](std::size_t i, std::size_t pair) {
+      const ForceShape::Places found = ForceShape::places_of((contact - two_at(inner_z_.data() + i)) * per_depth);
+      std::memcpy(places.node.data() + i, &found.node, pair * sizeof(std::int64_t));
+      std::memcpy(places.behind.data() + i, &found.behind, pair * sizeof(double));
     };
     std::size_t i = 0;
-    for (; i + 2 <= count; i += 2) {
-      const double* const one = nodes + node[i];
-      const double* const other = nodes + node[i + 1];
-      const Two near{one[0], other[0]}, far{one[1], other[1]};
-      add(near + two_at(places.behind, i) * (far - near), two_at(inner_rest_, i), two_at(inner_tilt_, i));
+    for (; i + 2 <= count; i += 2) find(i, 2);
+    if (i < count) find(i, 1);
+  }
+
+  // Four points at once, in two pairs with sums of their own: a sum waits for the addition before.
+  double taken_by(const ForceShape& shape, const Places& places) const {
+    const double* const nodes = shape.nodes();
+    const std::int64_t* const node = places.node.data();
+    const double* const behind = places.behind.data();
+    const double* const rest = inner_rest_.data();
+    const double* const tilt = inner_tilt_.data();
+    const std::size_t count = places.node.size();
+    Sums even, odd;
+    const auto force_at = [&](std::size_t i) {
+      const Two one = two_at(nodes + node[i]), other = two_at(nodes + node[i + 1]);
+      const Two near = __builtin_shufflevector(one, other, 0, 2), far = __builtin_shufflevector(one, other, 1, 3);
+      return near + two_at(behind + i) * (far - near);
+    };
+    std::size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+      even.add(force_at(i), two_at(rest + i), two_at(tilt + i));
+      odd.add(force_at(i + 2), two_at(rest + i + 2), two_at(tilt + i + 2));
     }
-    if (i < count) {
-      add(Two{shape.at({node[i], places.behind[i]}), 0.0}, Two{inner_rest_[i], 0.0}, Two{inner_tilt_[i], 0.0});
+    for (; i < count; ++i) {
+      even.add(Two{shape.at(node[i], behind[i]), 0.0}, Two{rest[i], 0.0}, Two{tilt[i], 0.0});
     }
-    const auto both = [](const Two& two) { return two[0] + two[1]; };
-    const double with_level = both(sum) * level_, all = both(squares), push = both(with_force);
-    const double own = all - with_level * with_level - both(with_tilt) * both(with_tilt);
+    const auto both = [](const Two& one, const Two& other) { return one[0] + one[1] + (other[0] + other[1]); };
+    const double with_level = both(even.force, odd.force) * level_, all = both(even.squares, odd.squares);
+    const double push = both(even.with_rest, odd.with_rest), with_tilt = both(even.with_tilt, odd.with_tilt);
+    const double own = all - with_level * with_level - with_tilt * with_tilt;
     // a push, whose shape is not that of a line
     return push > 0.0 && own > 1e-9 * all ? push * push / own : 0.0;
   }
@@ -174,24 +213,23 @@ class Misfit {
   // The best share of the lever: climbed to in steps, at last along a parabola. `near`: that of a neighbouring place,
   // if there is one, which is close to it; where it takes less than `hopeless`, it is taken as the best. `places` is
   // room to work in.
-  PlaceFit best_at(double contact, Indenter indenter, std::optional<double> near, double hopeless,
-                   Places& places) const {
+  PlaceFit best_at(double contact, Indenter indenter, std::optional<int> near, double hopeless, Places& places) const {
     constexpr int kShares = ForceShapes::kShares, kFine = 8, kFiner = 4, kCoarse = kFine * kFiner * kFiner;
-    PlaceFit best{-1.0, contact, 0.0, indenter};
+    PlaceFit best{-1.0, contact, kShares / 2, indenter};
     const ForceShapes& shapes = ForceShapes::of(indenter);
     find_places(contact, places);
-    const auto taken = [&](int node) {
-      const double value = taken_by(shapes.at(static_cast<std::size_t>(node)), places);
+    const auto taken = [&](int share) {
+      if (share == best.share && best.taken >= 0.0) return best.taken;
+      const double value = taken_by(shapes.at(share), places);
       if (value > best.taken) {
         best.taken = value;
-        best.lever_share = static_cast<double>(node) / kShares;
+        best.share = share;
       }
       return value;
     };
-    if (near && taken(static_cast<int>(std::lround(*near * kShares))) < hopeless) return best;
+    if (near && taken(*near) < hopeless) return best;
     for (int step = near ? kFine : kCoarse;; step /= kFiner) {
-      const double from = kShares * (best.taken < 0.0 ? 0.5 : best.lever_share);
-      int middle = std::clamp(static_cast<int>(std::lround(from)), step, kShares - step);
+      int middle = std::clamp(best.share, step, kShares - step);
       double below = taken(middle - step), here = taken(middle), above = taken(middle + step);
       while (above > here && middle + 2 * step <= kShares) {
         middle += step;
@@ -216,7 +254,7 @@ class Misfit {
 
   // Number of independent residuals of a fit: of noise their number, of a wave its half periods.
   double independent_residuals(const PlaceFit& fit) const {
-    const ForceShape shape(fit.indenter, fit.lever_share);
+    const ForceShape& shape = ForceShapes::of(fit.indenter).at(fit.share);
     const double depth = fit.contact - profile_.z.back();
     std::vector<double> force;
     force.reserve(profile_.z.size());
@@ -252,6 +290,7 @@ class Misfit {
   double level_ = 0.0;                           // value of a constant line
   std::vector<double> tilt_;                     // a straight line; orthonormal with the constant one
   std::vector<double> inner_rest_, inner_tilt_;  // the same, from the deepest point
+  std::vector<double> inner_z_;                  // and one more
   double squares_ = 0.0;
 };
 
@@ -267,7 +306,7 @@ std::vector<PlaceFit> fits_at_places(const Misfit& misfit, double low, double hi
   for (const Indenter indenter : {Indenter::Sphere, Indenter::Cone}) {
     PlaceFit best;
     const auto try_at = [&](double contact, const PlaceFit& neighbour) {
-      const auto near = neighbour.taken > 0.0 ? std::optional(neighbour.lever_share) : std::nullopt;
+      const auto near = neighbour.taken > 0.0 ? std::optional(neighbour.share) : std::nullopt;
       const double hopeless = misfit.squares() - kMuchWorse * (misfit.squares() - most);
       fits.push_back(misfit.best_at(std::clamp(contact, low, high), indenter, near, hopeless, places));
       if (fits.back().taken > best.taken) best = fits.back();
@@ -301,6 +340,8 @@ ApproachProfile profile_of(std::span<const CurvePoint> approach, std::size_t mos
   const auto greatest =
       std::max_element(bins.begin(), bins.end(), [](const auto& a, const auto& b) { return a.mean < b.mean; });
   ApproachProfile profile;
+  profile.z.reserve(bins.size());
+  profile.force.reserve(bins.size());
   for (auto bin = bins.end(); bin != greatest;) {
     --bin;
     profile.z.push_back(bin->z.si);

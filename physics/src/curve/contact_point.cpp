@@ -101,23 +101,43 @@ std::optional<double> by_distance(const ApproachProfile& profile) {
   return profile.z[farthest];
 }
 
+// Sums over bins from the outermost one on, of which any window's sums are differences.
+class RunningSums {
+ public:
+  explicit RunningSums(const ApproachProfile& profile) : sums_(profile.z.size() + 1) {
+    // from the middle, so that the differences keep their digits
+    const double middle = 0.5 * (profile.z.front() + profile.z.back()), level = profile.force.front();
+    for (std::size_t i = 0; i < profile.z.size(); ++i) {
+      const double z = profile.z[i] - middle, force = profile.force[i] - level;
+      const Sums& before = sums_[i];
+      sums_[i + 1] = {before.z + z, before.force + force, before.zz + z * z, before.zf + z * force};
+    }
+  }
+
+  // Slope of the line that fits the bins `first` to `last` best, with inwards as its direction; 0 if they have one
+  // height.
+  double inward_slope(std::size_t first, std::size_t last) const {
+    const Sums &end = sums_[last + 1], &begin = sums_[first];
+    const double share = 1.0 / static_cast<double>(last - first + 1);
+    const double z = end.z - begin.z, force = end.force - begin.force;
+    const double zz = end.zz - begin.zz - share * z * z;
+    return zz > 0.0 ? -(end.zf - begin.zf - share * z * force) / zz : 0.0;
+  }
+
+ private:
+  struct Sums {
+    double z = 0, force = 0, zz = 0, zf = 0;
+  };
+  std::vector<Sums> sums_;
+};
+
 // Slope over a fiftieth of the bins on either side.
 std::optional<double> by_gradient(const ApproachProfile& profile) {
   const std::size_t count = profile.z.size(), reach = std::max<std::size_t>(2, count / 50);
+  const RunningSums sums(profile);
   std::vector<double> slope(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t first = i < reach ? 0 : i - reach, last = std::min(count - 1, i + reach);
-    double z = 0, force = 0, zz = 0, zf = 0;
-    const auto inside = static_cast<double>(last - first + 1);
-    for (std::size_t k = first; k <= last; ++k) {
-      z += profile.z[k] / inside;
-      force += profile.force[k] / inside;
-    }
-    for (std::size_t k = first; k <= last; ++k) {
-      zz += (profile.z[k] - z) * (profile.z[k] - z);
-      zf += (profile.z[k] - z) * (profile.force[k] - force);
-    }
-    if (zz > 0) slope[i] = -zf / zz;
+    slope[i] = sums.inward_slope(i < reach ? 0 : i - reach, std::min(count - 1, i + reach));
   }
   auto i = static_cast<std::size_t>(std::max_element(slope.begin(), slope.end()) - slope.begin());
   const double small = 0.01 * slope[i];

@@ -18,29 +18,37 @@ inline std::uint32_t crc32_of(std::string_view bytes) {
   return ~crc;
 }
 
-// A zip archive of uncompressed entries. With `claimed_size` each entry says that it would unpack to so much.
+// How entries say that they are packed, and what packs them.
+struct ZipPacking {
+  std::uint16_t method = 0;
+  std::string (*pack)(std::string_view content) = nullptr;
+};
+
+// A zip archive of entries that are not compressed unless `packing` does so. With `claimed_size` each entry says that
+// it would unpack to so much.
 inline std::string stored_zip(const std::map<std::string, std::string>& entries,
-                              std::optional<std::uint32_t> claimed_size = {}) {
+                              std::optional<std::uint32_t> claimed_size = {}, const ZipPacking& packing = {}) {
   std::string archive, directory;
   const auto put = [](std::string& to, int size, std::uint64_t value) {
     for (int i = 0; i < size; ++i) to.push_back(static_cast<char>(value >> (8 * i)));
   };
   for (const auto& [name, content] : entries) {
     const std::size_t offset = archive.size();
+    const std::string packed = packing.pack != nullptr ? packing.pack(content) : content;
     const auto put_description = [&](std::string& to) {
       put(to, 2, 20);  // version
       put(to, 2, 0);   // flags
-      put(to, 2, 0);   // stored
-      put(to, 4, 0);   // time
+      put(to, 2, packing.method);
+      put(to, 4, 0);  // time
       put(to, 4, crc32_of(content));
-      put(to, 4, content.size());
+      put(to, 4, packed.size());
       put(to, 4, claimed_size ? *claimed_size : content.size());
       put(to, 2, name.size());
       put(to, 2, 0);  // extra
     };
     archive += "PK\x03\x04";
     put_description(archive);
-    archive += name + content;
+    archive += name + packed;
     directory += "PK\x01\x02";
     put(directory, 2, 20);
     put_description(directory);
