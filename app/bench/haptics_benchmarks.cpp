@@ -6,13 +6,17 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "app/bench/particle_work.h"
+#include "app/bench/render_subjects.h"
 #include "app/bench/servo_latency.h"
 #include "app/bench/servo_reaction.h"
 #include "app/bench/servo_work.h"
@@ -22,6 +26,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/models/topography_model.h"
+#include "physics/manipulation/pushed_particles.h"
 #include "render/context.h"
 #include "render/renderer.h"
 
@@ -43,7 +48,9 @@ struct Figures {
   std::vector<WorkFigure> work;
   std::array<core::Percentiles, kReleases.size()> release_ms;  // in the order of kReleases
   ServoWake wake;
-  std::string renderer;  // name of the graphics device
+  std::vector<ParticleWorkFigure> particles;  // the first: the law alone
+  std::size_t frames = 0;                     // drawn alongside them
+  std::string renderer;                       // name of the graphics device
 };
 
 // Measures the servo next to the real renderer, which draws the wall without a window at full rate.
@@ -70,9 +77,22 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
       fmt::format("the wall, 2 x {} x {} pixels on {}", size.eye_width, size.eye_height, vulkan->device_name());
   core::log_line(fmt::format("running the servo for {} s alongside {}", options.seconds, figures.renderer));
   auto wake = measure_servo_wake(context.program_path, options.seconds, [&] { renderer->render(frame); });
-  renderer->wait();
   if (!wake) return tl::unexpected(wake.error());
   figures.wake = *wake;
+  // a renderer draws nothing that has not changed
+  const auto moving = wall_subject(*stage, kEyeWidth_px, WallMotion::TipAndHead);
+  if (!moving) return tl::unexpected(moving.error());
+  auto particles = core::Result<std::vector<ParticleWorkFigure>>{};
+  std::atomic<bool> measured = false;
+  std::thread ticks([&] {
+    particles = measure_particle_work(options.ticks);
+    measured = true;
+  });
+  for (; !measured; ++figures.frames) renderer->render(moving->frames[figures.frames % moving->frames.size()]);
+  ticks.join();
+  renderer->wait();
+  if (!particles) return tl::unexpected(particles.error());
+  figures.particles = std::move(*particles);
   return {};
 }
 
@@ -111,6 +131,26 @@ double share(std::uint64_t missed, std::uint64_t ticks) {
   return static_cast<double>(missed) / static_cast<double>(std::max<std::uint64_t>(1, missed + ticks));
 }
 
+std::string particle_table(const Figures& figures, const HapticsBenchOptions& options) {
+  const core::Percentiles& alone = figures.particles.front().us;
+  std::string text = fmt::format(
+      "\nwork per tick among particles, us, {} ticks back to back alongside {} ({} frames); at most {:.0f} looks at "
+      "contacts a "
+      "tick\n"
+      "{:<22}{:>8}{:>8}{:>10}{:>10}   {:<10}{:<6}{:>14}{:>14}{:>10}{:>11}\n",
+      options.ticks, figures.renderer, figures.frames, physics::kHeapLooks, "", "p50", "p99", "p99.9", "max", "bar",
+      "met", "p50 / alone", "p99 / alone", "touching", "exhausted");
+  for (const ParticleWorkFigure& each : figures.particles) {
+    const bool bar = each.p99_bar_us > 0;
+    text += fmt::format(
+        "{:<22}{:>8.2f}{:>8.2f}{:>10.2f}{:>10.2f}   {:<10}{:<6}{:>14.1f}{:>14.1f}{:>8.1f} %{:>9.2f} %\n", each.name,
+        each.us.p50, each.us.p99, each.us.p999, each.us.max, bar ? fmt::format("p99 {}", each.p99_bar_us) : "",
+        bar ? yes_or_no(each.met()) : "", each.us.p50 / alone.p50, each.us.p99 / alone.p99, 100.0 * each.touching_share,
+        100.0 * each.exhausted_share);
+  }
+  return text;
+}
+
 std::string table(const Figures& figures, const HapticsBenchOptions& options) {
   std::string text = fmt::format(
       "work per tick, us, {} ticks back to back\n"
@@ -122,6 +162,8 @@ std::string table(const Figures& figures, const HapticsBenchOptions& options) {
     text += fmt::format("{:<22}{:>8.2f}{:>8.2f}{:>8.2f}{:>9.2f}   {:<24}{}\n", each.name, each.us.p50, each.us.p99,
                         each.us.p999, each.us.max, bar, yes_or_no(each.met()));
   }
+
+  text += particle_table(figures, options);
 
   const core::Percentiles servo = core::percentiles(figures.wake.servo.wake_us, figures.wake.servo.wake_max_us);
   const core::Percentiles plain = core::percentiles(figures.wake.plain.late_us, figures.wake.plain.max_us);
@@ -157,6 +199,28 @@ nlohmann::ordered_json in_seconds(const core::Percentiles& values, double unit_s
           {"max_s", unit_s * values.max}};
 }
 
+void add_particles(nlohmann::ordered_json& root, const Figures& figures, const HapticsBenchOptions& options) {
+  constexpr double kMicrosecond = 1e-6;
+  const core::Percentiles& alone = figures.particles.front().us;
+  nlohmann::ordered_json& among = root["particles"];
+  among = {{"looks_per_tick", physics::kHeapLooks},
+           {"beside", {{"renderer", figures.renderer}, {"frames", figures.frames}}}};
+  for (const ParticleWorkFigure& each : figures.particles) {
+    nlohmann::ordered_json& work = among["work"][each.name];
+    work = in_seconds(each.us, kMicrosecond);
+    work["ticks"] = options.ticks;
+    work["particles"] = each.particles;
+    if (each.p99_bar_us > 0) {
+      work["bar_p99_s"] = kMicrosecond * each.p99_bar_us;
+      work["met"] = each.met();
+    }
+    work["p50_to_law_alone"] = each.us.p50 / alone.p50;
+    work["p99_to_law_alone"] = each.us.p99 / alone.p99;
+    work["touching_share"] = each.touching_share;
+    work["exhausted_share"] = each.exhausted_share;
+  }
+}
+
 std::string json(const Figures& figures, const HapticsBenchOptions& options) {
   constexpr double kMicrosecond = 1e-6, kMillisecond = 1e-3;
   nlohmann::ordered_json root;
@@ -169,6 +233,7 @@ std::string json(const Figures& figures, const HapticsBenchOptions& options) {
     if (each.p50_bar_us > 0) work["bar_p50_s"] = kMicrosecond * each.p50_bar_us;
     work["met"] = each.met();
   }
+  add_particles(root, figures, options);
   nlohmann::ordered_json& servo = root["wake"]["servo"];
   servo = in_seconds(core::percentiles(figures.wake.servo.wake_us, figures.wake.servo.wake_max_us), kMicrosecond);
   servo["ticks"] = figures.wake.servo.ticks;

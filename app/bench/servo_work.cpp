@@ -12,13 +12,13 @@
 #include <string>
 #include <utility>
 
+#include "app/bench/timed_servo.h"
 #include "core/clock.h"
 #include "core/log.h"
 #include "haptics/contact/felt_ink.h"
 #include "haptics/contact/felt_scratch.h"
 #include "haptics/law_family.h"
 #include "haptics/particle_scale.h"
-#include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
 #include "physics/law.h"
 #include "scene/shared/shared_segment.h"
@@ -34,9 +34,7 @@ constexpr double kTapP99_us = 5.0;
 constexpr double kFieldP50_us = 0.8;
 constexpr double kFieldP99_us = 1.0;
 
-constexpr std::int64_t kPeriodNs = 1'000'000;
-constexpr std::size_t kWarmUpTicks = 3000;  // lift, Turn-On, and the ramp
-constexpr std::size_t kHalfCycle = 600;     // ticks
+constexpr std::size_t kHalfCycle = 600;  // ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
 enum class Ground { Plane, Surface, Measured, Map, Tapped };
@@ -132,73 +130,38 @@ scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measure
   return model;
 }
 
-class Bench {
+// The simulated person moves up and down and sideways without end.
+class Hand {
  public:
-  Bench(scene::SharedSegment& segment, haptics::ServoLoop& loop) : side_(segment.renderer_side()), loop_(loop) {
-    side_.store(scene::Selection{.material = 0, .revision = 1});
-  }
+  explicit Hand(TimedServo& servo) : servo_(servo) {}
 
-  // Runs one tick and returns its duration.
   double tick_us() {
-    direct();
-    side_.store(scene::RendererHeartbeat{.time_ns = now_ns_, .frame = tick_});
-    now_ns_ += kPeriodNs;
-    const std::int64_t before_ns = clock_.now_ns();
-    loop_.tick(now_ns_, 0);
-    const std::int64_t after_ns = clock_.now_ns();
-    while (side_.pop_sample()) {
+    if (tick_++ % kHalfCycle == 0) {
+      down_ = !down_;
+      const double sideways_m = down_ ? -kSideways_m : kSideways_m;
+      servo_.aim({sideways_m, down_ ? kBottom_m : kTop_m, sideways_m},
+                 1e-9 * static_cast<double>(kHalfCycle * TimedServo::kPeriodNs));
     }
-    while (side_.pop_event()) {
-    }
-    ++tick_;
-    return 1e-3 * static_cast<double>(after_ns - before_ns);
+    return servo_.tick_us();
   }
-
-  bool force_is_on() { return side_.tip_state()->servo_state == scene::ServoState::Running; }
 
  private:
-  // The simulated person: lifts, presses Turn-On, then moves up and down and sideways without end.
-  void direct() {
-    if (tick_ == kWarmUpTicks / 2) aim(kTop_m, true);
-    if (tick_ == kWarmUpTicks / 2 + 100) aim(kTop_m, false);
-    if (tick_ < kWarmUpTicks || tick_ % kHalfCycle != 0) return;
-    down_ = !down_;
-    aim(down_ ? kBottom_m : kTop_m, false);
-  }
-
-  void aim(double height_m, bool pressed) {
-    const double sideways_m = revision_ % 2 == 0 ? kSideways_m : -kSideways_m;
-    side_.store(scene::HandScript{.target_m = {sideways_m, height_m, sideways_m},
-                                  .duration_s = 1e-9 * static_cast<double>(kHalfCycle * kPeriodNs),
-                                  .revision = ++revision_,
-                                  .turn_on_pressed = pressed ? 1U : 0U});
-  }
-
-  scene::RendererSide side_;
-  haptics::ServoLoop& loop_;
-  core::MonotonicClock clock_;
-  std::int64_t now_ns_ = kPeriodNs;
-  std::uint64_t tick_ = 0;
-  std::uint32_t revision_ = 0;
+  TimedServo& servo_;
+  std::size_t tick_ = 0;
   bool down_ = false;
 };
 
 core::Result<WorkFigure> measure_case(const WorkCase& work, const MeasuredSurface& measured, std::size_t ticks) {
   const bool on_measured = work.ground == Ground::Measured;
-  auto segment = scene::SharedSegment::create(model_of(work, measured), 0,
-                                              on_measured ? measured.topography : scene::Topography{});
-  if (!segment) return tl::unexpected(segment.error());
-  haptics::SimulatedDevice hand;
-  auto loop = haptics::ServoLoop::create(*segment, hand, {.rate_hz = 1e9 / static_cast<double>(kPeriodNs)});
-  if (!loop) return tl::unexpected(loop.error());
-  Bench bench(*segment, **loop);
-  for (std::size_t i = 0; i < kWarmUpTicks; ++i) bench.tick_us();
-  if (!bench.force_is_on()) {
+  auto servo = TimedServo::create(model_of(work, measured), on_measured ? measured.topography : scene::Topography{});
+  if (!servo) return tl::unexpected(servo.error());
+  if (!(*servo)->turn_on()) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("cannot measure {}: the force was never enabled", work.name));
   }
+  Hand hand(**servo);
   std::vector<double> us(ticks);
-  for (double& each : us) each = bench.tick_us();
+  for (double& each : us) each = hand.tick_us();
   return WorkFigure{work.name, core::percentiles(std::move(us)), work.p50_bar_us, work.p99_bar_us};
 }
 
@@ -220,7 +183,7 @@ core::Result<WorkFigure> measure_scratching(std::size_t ticks) {
                 .pile_up_share = 0.7};
   const auto scale = haptics::particle_scale(*pmma, haptics::SimulatedDevice().spec());
   if (!scale) return tl::unexpected(scale.error());
-  haptics::FeltScratch felt(*pmma, *scale, 1e-9 * static_cast<double>(kPeriodNs));
+  haptics::FeltScratch felt(*pmma, *scale, 1e-9 * static_cast<double>(TimedServo::kPeriodNs));
   double x_m = -kHalfM, y_m = -kHalfM, step_m = kStepM, beside_m = kBesideM;
   for (double z_m = kOverM; z_m > kPressedM; z_m -= kStepM) felt.step({x_m, y_m}, z_m, 1e-3);
   const core::MonotonicClock clock;

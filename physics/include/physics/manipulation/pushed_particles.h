@@ -119,6 +119,9 @@ struct PushTick {
   bool near = false;  // spheres are within reach of the apex
 };
 
+// Budget of a tick: looks at contacts by heaps, a figure that depends only on places and path.
+inline constexpr double kHeapLooks = 4000.0;
+
 // The constructor allocates; a tick neither allocates, locks, throws nor waits. One thread. The result depends on the
 // path of the base and, by ageing, on the time between ticks; never on a clock.
 //
