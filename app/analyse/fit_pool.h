@@ -70,7 +70,7 @@ class FitPool {
   std::size_t beginning_ = 0;  // files whose curves are being counted
   std::deque<Share> shares_;
   std::vector<Results> results_;
-  std::deque<curves::FittedCurve> next_;  // of the thread that takes them
+  std::deque<curves::FittedCurve> next_;  // results for the thread that takes them
   std::vector<std::jthread> workers_;     // last: they end before what they use
 };
 

@@ -42,7 +42,7 @@ struct MapTimes {
   std::optional<double> unzip_s{};
   double read_s = 0;
   std::optional<double> fit_s{}, fit_alone_s{};  // read and fitted on all threads, and by one thread on one processor
-  double unzip_processor_s = 0, fit_processor_s = 0;  // of all processes together
+  double unzip_processor_s = 0, fit_processor_s = 0;  // sums over all processes
   double memory_bytes = 0;                            // peaks of this process and of its largest child together
 };
 

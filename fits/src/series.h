@@ -28,7 +28,7 @@ class PressedLever {
   using Four = std::array<Two, 2>;
   struct Pressed {
     Four depth_m{}, force_n{};
-    Four slope_n_per_m{};  // of the contact alone, without the lever
+    Four slope_n_per_m{};  // contact alone, without the lever
   };
   // Ways as above. `root`: roots of the depths from which the search begins, positive; changed to those of its end.
   void at(const Four& way_m, Four& root, Pressed& pressed) const;

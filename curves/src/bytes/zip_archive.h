@@ -31,7 +31,7 @@ class ZipArchive {
 
  private:
   struct Place {
-    std::size_t hash = 0;  // of the name
+    std::size_t hash = 0;  // hash of the name
     unz64_file_pos at{};
   };
 
@@ -69,7 +69,7 @@ class ZipArchive {
   std::unique_ptr<void, decltype(&unzClose)> archive_;
   bool listed_here_ = true;              // false: by minizip, which knows where the headers are
   std::vector<Place> places_;            // by the first bits of the hash, then as in the archive
-  std::vector<std::uint32_t> begin_of_;  // of the places whose hash begins with these bits
+  std::vector<std::uint32_t> begin_of_;  // first place by the first bits of its hash
   unsigned begin_shift_ = 0;             // bits of a hash that do not count there
   mutable Inflater inflater_;
   bool in_order_ = false;          // entries may be looked for where the last one was found

@@ -84,7 +84,7 @@ class ConfinedStream {
   pid_t child_ = -1;
   core::FileDescriptor from_child_;
   std::string unread_;
-  std::size_t read_ = 0;  // of these
+  std::size_t read_ = 0;  // number of unread_'s bytes that were handed out
 };
 
 }  // namespace afm::curves

@@ -134,7 +134,7 @@ class ForceShapes {
 struct PlaceFit {
   double taken = -1.0;  // reduction of the sum of squares
   double contact = 0.0;
-  int share = 0;  // of the lever, in units of 1/ForceShapes::kShares
+  int share = 0;  // the lever's share in units of 1/ForceShapes::kShares
   Indenter indenter = Indenter::Sphere;
 };
 
