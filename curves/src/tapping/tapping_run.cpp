@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <tuple>
 #include <variant>
 
+#include "core/log.h"
 #include "curves/viscosity_units.h"
 #include "physics/quantity_text.h"
 #include "physics/tapping/swing_map.h"
@@ -112,6 +114,16 @@ core::Result<physics::DrivenLever> read_lever(const ContactSetup& setup, const T
   return physics::driven_lever(contact.spring_constant, lever, {*amplitude, *drive});
 }
 
+// Once a second, of a curve that takes longer.
+physics::TapProgress logged_progress() {
+  return [told = std::chrono::steady_clock::now()](std::size_t done, std::size_t all) mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told < std::chrono::seconds(1)) return;
+    told = now;
+    core::log_line(fmt::format("tapping curve: {} of {} heights, {} %", done, all, 100 * done / all));
+  };
+}
+
 core::Result<void> compute(const PathOptions& path, const TappingOptions& options, TappingRun& run) {
   const auto& contact = run.setup.material.contact;
   const auto lever = read_lever(run.setup, options);
@@ -138,15 +150,17 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
     if (!speed) return tl::unexpected(speed.error());
     run.path.speed = *speed;
   }
-  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method);
+  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, logged_progress());
   if (!run.curve.lost_at) return {};
   run.averages_lost_at = run.curve.lost_at;
   if (!options.method.empty()) {
     return wrong_usage(fmt::format("--method averaged: no averages follow the swing at {}; take direct",
                                    physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits)));
   }
+  core::log_line(fmt::format("no averages follow the swing at {}: integrating directly, which takes longer",
+                             physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits)));
   run.method = physics::TapMethod::Direct;
-  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method);
+  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, logged_progress());
   return {};
 }
 

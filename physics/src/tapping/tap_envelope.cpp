@@ -17,15 +17,16 @@ namespace afm::physics {
 namespace {
 
 constexpr std::size_t kAmplitudes = 48;
-constexpr double kFinestGap = 0.1e-9;      // m; from contact this far the columns are evenly spaced
-constexpr double kColumnsOfOctave = 36.0;  // columns for each doubling of the gap beyond, evenly spaced
-constexpr double kFirstShare = 0.01;       // first row, as a share of the free amplitude
-constexpr double kLastShare = 1.25;        // last row, as a share of the free amplitude
-constexpr double kFarthestGap = 300e-9;    // gap of the last column
-constexpr double kLongestShare = 0.1;      // longest step, as a share of the relaxation
-constexpr double kLargestTurn = 0.25;      // rad a step
-constexpr double kLargestRing = 0.4;       // rad a step; more, and a step gives a stiff contact more than a swing loses
-constexpr double kNudge = 0.05;            // share of a row, for the slope of w
+constexpr double kLastRow = static_cast<double>(kAmplitudes) - 1.000001;
+constexpr double kFinestGap = 0.1e-9;    // m; from contact this far the columns are evenly spaced
+constexpr int kColumnsOfOctave = 36;     // columns for each doubling of the gap beyond, evenly spaced
+constexpr double kFirstShare = 0.01;     // first row, as a share of the free amplitude
+constexpr double kLastShare = 1.25;      // last row, as a share of the free amplitude
+constexpr double kFarthestGap = 300e-9;  // gap of the last column
+constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
+constexpr double kLargestTurn = 0.25;    // rad a step
+constexpr double kLargestRing = 0.4;     // rad a step; more, and a step gives a stiff contact more than a swing loses
+constexpr double kNudge = 0.05;          // share of a row, for the slope of w
 
 // The column of a gap, and the gap of a column. Between powers of two it is a straight line, read from the bits of a
 // number: a logarithm would be the dearest part of a tick.
@@ -123,8 +124,7 @@ void TapEnvelope::drive(const DrivenLever& lever) {
 
 TapEnvelope::Place TapEnvelope::place_of(double amplitude_m, double gap_m) const noexcept {
   const double x = std::max(0.0, column_of(gap_m - amplitude_m - contact_m_) - least_x_);
-  const double y =
-      std::clamp((amplitude_m - least_amplitude_m_) * pace_.by_row, 0.0, static_cast<double>(kAmplitudes) - 1.000001);
+  const double y = std::clamp((amplitude_m - least_amplitude_m_) * pace_.by_row, 0.0, kLastRow);
   if (!(x < last_column_)) return {};
   // numbers with a sign are converted in one instruction each
   const int column = static_cast<int>(x), row = static_cast<int>(y);
@@ -142,6 +142,44 @@ double TapEnvelope::between(const std::vector<Node>& nodes, const Place& place, 
   const double c = static_cast<double>(high[0].*value), d = static_cast<double>(high[1].*value);
   const double below = a + place.right * (b - a), above = c + place.right * (d - c);
   return below + place.up * (above - below);
+}
+
+// A step lasts as long as a chain of operations, each of which waits for the one before. So most swings are found in
+// the cell of an earlier one, without a conversion or a load, and to the last bit as place_of() and between() find
+// them.
+[[gnu::always_inline]] inline TapEnvelope::Moved TapEnvelope::moving_at(double amplitude_m, double gap_m,
+                                                                        Cell& cell) const noexcept {
+  const double gap = gap_m - amplitude_m - contact_m_;
+  const double y = (amplitude_m - least_amplitude_m_) * pace_.by_row;
+  const double x = cell.columns * (cell.whole + cell.share * (1.0 + cell.by_gap * gap)) - least_x_;
+  if (cell.left <= x && x < cell.left + 1.0 && cell.low <= y && y < cell.high) return cell.at(x, y);
+  const double column = std::max(0.0, column_of(gap) - least_x_), row = std::clamp(y, 0.0, kLastRow);
+  if (!(column < last_column_)) return {};
+  enter_cell(column, row, cell);
+  return cell.at(column, row);
+}
+
+void TapEnvelope::enter_cell(double x, double y, Cell& cell) const noexcept {
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const Moving* low = tables_->moving.data() + std::ptrdiff_t{row} * columns_ + column;
+  const Moving* high = low + columns_;
+  const auto line = [](float from, float to) {
+    return Line{static_cast<double>(from), static_cast<double>(to) - static_cast<double>(from)};
+  };
+  const int from_contact = static_cast<int>(least_x_) + column;
+  const bool above = from_contact >= 0;
+  const int octave = (above ? from_contact : -1 - from_contact) / kColumnsOfOctave;
+  cell = {.left = static_cast<double>(column),
+          .low = static_cast<double>(row),
+          .high = std::min(static_cast<double>(row) + 1.0, kLastRow),
+          .columns = above ? double{kColumnsOfOctave} : -double{kColumnsOfOctave},
+          .whole = static_cast<double>(octave) - 1.0,
+          .share = 1.0 / static_cast<double>(1 << octave),
+          .by_gap = (above ? 1.0 : -1.0) / kFinestGap,
+          .virial_below = line(low[0].virial, low[1].virial),
+          .virial_above = line(high[0].virial, high[1].virial),
+          .lost_below = line(low[0].lost, low[1].lost),
+          .lost_above = line(high[0].lost, high[1].lost)};
 }
 
 TapEnvelope::Swing TapEnvelope::contact() const noexcept {
@@ -182,57 +220,58 @@ void TapEnvelope::advance(double from_gap_m, double to_gap_m, double angle, int 
   gap_m_ = to_gap_m;
   if (rests_) return approach_rest(to_gap_m, angle);
   const double drive = pace_.drive, detuned = pace_.detuned, by_stored = pace_.by_stored, by_turn = pace_.by_turn;
-  const double damping = pace_.damping, lowest = least_swing_m();
+  const double damping = pace_.damping, lowest = least_swing_m(), nudge = amplitude_step_m_ * kNudge;
   struct Rates {
     double g, w;
   };
-  const auto rates = [&](double amplitude, double gap_m) {
-    const Place place = place_of(amplitude, gap_m);
-    if (place.beyond) return Rates{damping, detuned};
-    const double share = std::sqrt(amplitude) / (amplitude * amplitude);
-    return Rates{damping + by_turn * share * between(tables_->moving, place, &Moving::lost),
-                 detuned + by_stored * share * between(tables_->moving, place, &Moving::virial)};
+  const auto rates = [&](double at, double gap_m, Cell& cell) __attribute__((always_inline)) {
+    const auto [virial, lost, beyond] = moving_at(at, gap_m, cell);
+    if (beyond) return Rates{damping, detuned};
+    const double share = std::sqrt(at) / (at * at);
+    return Rates{damping + by_turn * share * lost, detuned + by_stored * share * virial};
   };
   const auto length = [lowest](double u, double v) { return std::max(lowest, std::sqrt(u * u + v * v)); };
+  double u = u_, v = v_, amplitude = amplitude_;
   // Amplitude and phase ring about a contact with the angular rate sqrt(|w' a/2r cos phi|), w' = dw/dA at this height;
   // its square times A.
-  const auto ringing = [&](double amplitude, double gap_m, double w) {
-    const double more = amplitude + amplitude_step_m_ * kNudge;
-    const Place place = place_of(more, gap_m);
-    if (place.beyond) return 0.0;
-    const double virial = between(tables_->moving, place, &Moving::virial);
-    const double steeper = by_stored * std::sqrt(more) / (more * more) * virial - (w - detuned);
-    return std::abs(steeper * pace_.by_nudge * drive * u_);
+  const auto ringing = [&](double at, double gap_m, double w) {
+    const double more = at + nudge;
+    const Moved moved = moving_at(more, gap_m, cells_.longer);
+    if (moved.beyond) return 0.0;
+    const double steeper = by_stored * std::sqrt(more) / (more * more) * moved.virial - (w - detuned);
+    return std::abs(steeper * pace_.by_nudge * drive * u);
   };
   const double way_m = to_gap_m - from_gap_m;
   const double by_angle = angle > 0.0 ? 1.0 / angle : 0.0, by_steps = 1.0 / static_cast<double>(most_steps);
   double left = angle;
   // the base arrives also where the steps are used up and the swing is in slow motion
   const auto gap_at = [&](double undone, int steps) {
+    if (way_m == 0.0) return from_gap_m;
     return from_gap_m + way_m * std::max(1.0 - undone * by_angle, static_cast<double>(steps) * by_steps);
   };
   for (int i = 0; left > 0.0 && i < most_steps; ++i) {
     const double gap_m = gap_at(left, i);
-    const double amplitude = std::max(lowest, amplitude_);
-    const Rates first = rates(amplitude, gap_m);
-    const double step = step_of(left, pace_.slowest, first.w, ringing(amplitude, gap_m, first.w), amplitude);
+    const double here = std::max(lowest, amplitude);
+    const Rates first = rates(here, gap_m, cells_.first);
+    const double step = step_of(left, pace_.slowest, first.w, ringing(here, gap_m, first.w), here);
     const double middle_m = 0.5 * (gap_m + gap_at(left - step, i + 1));
     const double half = 0.5 * step;
-    const double middle_u = u_ + half * (-first.g * u_ - first.w * v_);
-    const double middle_v = v_ + half * (-first.g * v_ + first.w * u_ + drive);
-    const Rates middle = rates(length(middle_u, middle_v), middle_m);
+    const double middle_u = u + half * (-first.g * u - first.w * v);
+    const double middle_v = v + half * (-first.g * v + first.w * u + drive);
+    const Rates middle = rates(length(middle_u, middle_v), middle_m, cells_.middle);
     // towards the swing at which these rates rest, turning about it: exact at rest, and no step lets the swing grow
     const double lost = 1.0 + step * middle.g * (1.0 + half * middle.g), tangent = half * middle.w;
     const double kept = 1.0 / (lost * (1.0 + tangent * tangent));
     const double cosine = kept * (1.0 - tangent * tangent), sine = kept * 2.0 * tangent;
     const double pull = drive / (middle.g * middle.g + middle.w * middle.w);
     const double rest_u = -pull * middle.w, rest_v = pull * middle.g;
-    const double u = u_ - rest_u, v = v_ - rest_v;
-    u_ = rest_u + cosine * u - sine * v;
-    v_ = rest_v + sine * u + cosine * v;
-    measure();
+    const double away_u = u - rest_u, away_v = v - rest_v;
+    u = rest_u + cosine * away_u - sine * away_v;
+    v = rest_v + sine * away_u + cosine * away_v;
+    amplitude = std::sqrt(u * u + v * v);
     left -= step;
   }
+  u_ = u, v_ = v, amplitude_ = amplitude;
 }
 
 void TapEnvelope::measure() noexcept { amplitude_ = std::sqrt(u_ * u_ + v_ * v_); }

@@ -142,18 +142,19 @@ void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch,
 
 void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
                  Length least) {
-  const auto& [branch, heights] = direction;
+  const auto& [branch, heights, reached] = direction;
   Walked walked;
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
     if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, walked);
     if (curve.lost_at) return;
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
+    if (reached) reached();
   }
 }
 
 void walk_slowly(TappingOscillator& tip, const TapDirection& direction, TappingCurve& curve) {
-  const auto& [branch, heights] = direction;
+  const auto& [branch, heights, reached] = direction;
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     tip.set_base(heights[i]);
     const RestingTap tap = resting_tap(tip.settle());
@@ -165,12 +166,13 @@ void walk_slowly(TappingOscillator& tip, const TapDirection& direction, TappingC
       }
     }
     add_tap_point(curve, tip.lever(), branch, heights[i], tap);
+    if (reached) reached();
   }
 }
 
 void walk_moving(AveragedFlow& flow, const TapDirection& direction, Velocity speed, TapState& state,
                  TappingCurve& curve) {
-  const auto& [branch, heights] = direction;
+  const auto& [branch, heights, reached] = direction;
   const double w0 = flow.lever().angular_resonance();
   PhaseWatch watch(flow.lever(), branch);
   state = flow.settle(state, heights.front()).state;
@@ -187,12 +189,13 @@ void walk_moving(AveragedFlow& flow, const TapDirection& direction, Velocity spe
       watch.see(from + way * ((n + 1.0) / steps), state.phase);
     }
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
+    if (reached) reached();
   }
   watch.report(curve, first, speed * flow.lever().relaxation());
 }
 
 void walk_moving(TappingOscillator& tip, const TapDirection& direction, Velocity speed, TappingCurve& curve) {
-  const auto& [branch, heights] = direction;
+  const auto& [branch, heights, reached] = direction;
   PhaseWatch watch(tip.lever(), branch);
   tip.set_base(heights.front());
   RestingTap tap = resting_tap(tip.settle());
@@ -206,6 +209,7 @@ void walk_moving(TappingOscillator& tip, const TapDirection& direction, Velocity
       watch.see(tip.base(), tap.state.phase);
     }
     add_tap_point(curve, tip.lever(), branch, heights[i], tap);
+    if (reached) reached();
   }
   tip.move_base(Length());
   watch.report(curve, first, speed * tip.lever().relaxation());

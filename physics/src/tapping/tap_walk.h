@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace afm::physics {
 struct TapDirection {
   Branch branch = Branch::Approach;
   std::vector<Length> heights;
+  std::function<void()> reached = {};  // called at each height, if there is one
 };
 
 // A slow walk down and up again, in parts.

@@ -51,16 +51,22 @@ bool same_state(const TapState& a, const TapState& b) {
   return abs(a.amplitude - b.amplitude) < kSameAmplitude * b.amplitude && std::abs(a.phase - b.phase) < kSamePhase;
 }
 
+// Of so many heights one in this many is looked at for islands.
+std::size_t stride_of_islands(std::size_t heights) {
+  constexpr std::size_t kMostHeights = 100;
+  return (heights + kMostHeights - 1) / kMostHeights;
+}
+
 // Stable states beside both directions of the path, looked for at a sample of its heights, from the highest down.
 std::vector<TapIsland> islands_of(AveragedFlow& flow, const std::array<TapDirection, 2>& directions,
                                   const TappingCurve& curve) {
-  constexpr std::size_t kMostHeights = 100;
   const auto& heights = directions[0].heights;
-  const std::size_t stride = (heights.size() + kMostHeights - 1) / kMostHeights;
+  const std::size_t stride = stride_of_islands(heights.size());
   std::vector<std::vector<RestingTap>> beside;
   std::vector<TapIsland> islands;
   std::vector<std::size_t> newest;  // index of the last height of each island
   for (std::size_t i = 0; i < heights.size(); i += stride) {
+    if (directions[0].reached) directions[0].reached();
     const Length z = heights[i];
     for (const RestingTap& tap : flow.resting_at(z)) {
       if (!tap.stable) continue;
@@ -111,12 +117,20 @@ void add_loops(TappingCurve& curve, const DrivenLever& lever) {
 }  // namespace
 
 TappingCurve record_tapping_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
-                                  const TapPath& path, TapMethod method) {
+                                  const TapPath& path, TapMethod method, const TapProgress& reached) {
   if (method == TapMethod::Averaged && lever.quality_factor < AveragedFlow::kLeastQuality) {
     throw std::invalid_argument("averaging needs a quality factor of at least 100: integrate directly");
   }
   require_length(lever, path, method);
-  const auto directions = directions_of(path.plan);
+  auto directions = directions_of(path.plan);
+  const std::size_t rows = directions[0].heights.size();
+  const std::size_t islands =
+      method == TapMethod::Averaged && !path.speed ? 1 + (rows - 1) / stride_of_islands(rows) : 0;
+  const std::size_t all = 2 * rows - 1 + islands;
+  std::size_t done = 0;
+  for (TapDirection& direction : directions) {
+    if (reached) direction.reached = [&] { reached(std::min(++done, all), all); };
+  }
   TappingCurve curve;
   if (method == TapMethod::Direct) {
     TappingOscillator tip(surface, lever);

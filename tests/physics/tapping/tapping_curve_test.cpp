@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "physics/tapping/frequency_shift.h"
 #include "physics/tapping/tapped_sample.h"
@@ -51,6 +53,25 @@ TEST(TappingCurve, HasFoldsThatDoNotDependOnTheStep) {
   ASSERT_EQ(coarse.jumps.size(), 2u);
   ASSERT_EQ(fine.jumps.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(nm_of(coarse.jumps[i].z), nm_of(fine.jumps[i].z), 1e-6);
+}
+
+// A curve may take a minute, so that whoever waits has to see it go on.
+TEST(TappingCurve, CountsEachHeightAndThoseOfItsIslands) {
+  const TappedSample sample{.q = 100.0};
+  for (const TapMethod method : {TapMethod::Averaged, TapMethod::Direct}) {
+    std::vector<std::size_t> counted;
+    std::size_t last = 0;
+    const TappingCurve curve = record_tapping_curve(sample.surface(), sample.lever(), {{22_nm, 20_nm, 0.5_nm}, {}},
+                                                    method, [&](std::size_t done, std::size_t all) {
+                                                      counted.push_back(done);
+                                                      last = all;
+                                                    });
+    // five heights down, four up again, and five for islands
+    ASSERT_EQ(counted.size(), method == TapMethod::Averaged ? 14u : 9u);
+    EXPECT_EQ(counted.back(), last);
+    for (std::size_t i = 0; i < counted.size(); ++i) EXPECT_EQ(counted[i], i + 1);
+    EXPECT_EQ(curve.points.size(), 9u);
+  }
 }
 
 TEST(TappingCurve, ReportsAStateThatItsPathDoesNotReach) {

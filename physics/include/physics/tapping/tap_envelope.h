@@ -82,6 +82,33 @@ class TapEnvelope {
     std::vector<Moving> moving;
     std::vector<Forces> forces;
   };
+  // What moves a swing, between two columns and between two rows. A column there is
+  // `columns` (`whole` + `share` (1 + `by_gap` gap)), with the gap of the lowest point from contact.
+  struct Line {
+    double from = 0, rise = 0;
+    double at(double share) const noexcept { return from + share * rise; }
+  };
+  struct Moved {
+    double virial = 0, lost = 0;
+    bool beyond = true;  // farther than the last column: neither
+  };
+  struct Cell {
+    double left = -1, low = -1, high = -1;  // column, rows; none at first
+    double columns = 0, whole = 0, share = 0, by_gap = 0;
+    Line virial_below, virial_above, lost_below, lost_above;
+
+    Moved at(double x, double y) const noexcept {
+      const double right = x - left, up = y - low;
+      const double virial = virial_below.at(right), lost = lost_below.at(right);
+      return {.virial = virial + up * (virial_above.at(right) - virial),
+              .lost = lost + up * (lost_above.at(right) - lost),
+              .beyond = false};
+    }
+  };
+  // `cell`: the one to look in first; then that of this swing, unless it is beyond the tables.
+  Moved moving_at(double amplitude_m, double gap_m, Cell& cell) const noexcept;
+  void enter_cell(double x, double y, Cell& cell) const noexcept;
+
   // Place in the tables.
   struct Place {
     std::ptrdiff_t node = 0;
@@ -116,6 +143,9 @@ class TapEnvelope {
   double free_cosine_ = 0, free_sine_ = 1;  // cosine and sine of the free phase
   double u_ = 0, v_ = 0, amplitude_ = 0;
   double gap_m_ = 0;  // gap of the newest swing
+  struct Cells {
+    Cell first, middle, longer;  // of a step's beginning and middle, and of its ringing
+  } cells_;
 };
 
 }  // namespace afm::physics

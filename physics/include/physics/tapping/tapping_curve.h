@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -63,8 +65,10 @@ struct TappingCurve {
 
 // Throws std::invalid_argument as sample_count() does, for averaging below its least Q, for a speed that is not
 // positive and finite, and for a path of more than kLongestTapPath swings or steps of the flow. Allocates. Any thread.
+// `reached`, if there is one, is called with the number of heights that are done, those of the islands too, and of all.
 inline constexpr double kLongestTapPath = 3e7;
+using TapProgress = std::function<void(std::size_t done, std::size_t all)>;
 TappingCurve record_tapping_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
-                                  const TapPath& path, TapMethod method);
+                                  const TapPath& path, TapMethod method, const TapProgress& reached = {});
 
 }  // namespace afm::physics
