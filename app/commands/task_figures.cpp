@@ -15,6 +15,7 @@ nlohmann::json task_json(const scene::TaskScore& score) {
           {"losses", score.losses},
           {"pushes_taken_back", score.undos},
           {"pushes_in_a_groove", score.guided},
+          {"particles_shown", score.truth != 0},
           {"work_J", score.work_j},
           {"largest_lateral_N", score.largest_lateral_n}};
 }

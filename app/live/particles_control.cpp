@@ -102,7 +102,7 @@ ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& s
   parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
   if (set.targets.empty()) return;
   task_.emplace(set);
-  parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample); });
+  parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample, parts_.servo.picture() == nullptr); });
   parts_.servo.hear_events([this](const scene::TipEvent& event) { task_->add(event); });
 }
 

@@ -293,6 +293,8 @@ TEST(ParticlesCommand, FailsOnAnOldPictureUnlessTheHandLooksAgain) {
   const auto looks = json_of("--level 2"), blind = json_of("--level 2 --no-look");
   // a picture that is computed from the truth changes no force
   EXPECT_TRUE(truth["picture"].is_null());
+  EXPECT_EQ(truth["task"]["particles_shown"], true) << "an aid";
+  EXPECT_EQ(computed["task"]["particles_shown"], false);
   EXPECT_EQ(computed["states"], truth["states"]);
   EXPECT_EQ(computed["particles"], truth["particles"]);
   EXPECT_EQ(computed["task"]["done"], true);

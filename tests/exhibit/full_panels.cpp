@@ -134,7 +134,8 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
                                        .losses = 999,
                                        .undos = 999,
                                        .guided = 999,
-                                       .state = task};
+                                       .state = task,
+                                       .truth = 1};
           const scene::PlannedPush plan{
               .to_m = {0.0, 123.4e-9}, .particle = static_cast<std::int32_t>(set.particles.size()) - 1, .guided = 1};
           const servo::PictureNow picture = old_picture(set);

@@ -176,7 +176,7 @@ scene::TaskScore live_score(const scene::ParticleSet& set, const servo::Recorded
   std::size_t tick = 0;
   const auto replayed = servo::replay(session, {}, [&](const servo::ReplayedTick& now) {
     for (const scene::TipEvent& event : now.events) task.add(event);
-    task.add(now.sample);
+    task.add(now.sample, now.picture == nullptr);
     if (++tick % frame == 0) task.look(now.pages, now.picture);
   });
   EXPECT_TRUE(replayed && replayed->identical());
@@ -200,6 +200,7 @@ TEST(ParticleTask, IsSolvedByAPersonWithDelayAndTremorAndScoredAlikeLiveAndInARe
   EXPECT_GE(score.strokes, 4U);
   EXPECT_GT(score.work_j, 10e-18);
   EXPECT_EQ(score.undos, 0U);
+  EXPECT_EQ(score.truth, 1U) << "without a picture the particles themselves are shown";
   EXPECT_EQ(live_score(set, session, 17), score) << "at 60 frames a second";
   EXPECT_EQ(live_score(set, session, 450), score) << "at two frames a second";
 }
@@ -221,6 +222,7 @@ TEST(ParticleTask, IsJudgedByMeasuredPlacesAlone) {
   const scene::TaskScore looked = score_now();
   EXPECT_EQ(looked.state, scene::TaskState::Done) << scene::text_of(looked);
   EXPECT_EQ(looked.strokes, pushed.strokes);
+  EXPECT_EQ(looked.truth, 0U);
   EXPECT_LT(looked.time_s, pushed.time_s) << "up to the last lift, without the looks";
   EXPECT_EQ(live_score(set, person.recording().sessions.front(), 17), looked) << "at 60 frames a second";
 }

@@ -260,6 +260,10 @@ TEST_F(ParticlesPanel, AsksForTheLiftWhileTheTaskRunsAndShowsTheScoreThen) {
                 {"Fertig in", "83,5 s", "Sch\u00fcbe: 7; daran vorbeigerutscht: 2"},
                 {"Abstand bei Abschluss", "22,5 nm", "zur\u00fcckgenommene Sch\u00fcbe: 3; in einer Rille: 2"},
                 {"Arbeit der Hand", "42 aJ", "gr\u00f6\u00dfte Seitenkraft 0,25 nN"}}));
+  score.truth = 1;
+  EXPECT_EQ(rows(test::english(), 3)[1].source, "taken back: 3; in a groove: 2; particles shown");
+  score.undos = score.guided = 0;
+  EXPECT_EQ(rows(test::english(), 3)[1].source, "aid: the particles were shown, no picture");
 }
 
 TEST_F(ParticlesPanel, SaysWhatAPlanAsksOfTheHand) {

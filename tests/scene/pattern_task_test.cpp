@@ -29,7 +29,8 @@ class PatternTaskTest : public ::testing::Test {
                .lateral_n = {lateral_n, 0.0},
                .places = places_,
                .guided = guided_,
-               .swept = swept_});
+               .swept = swept_,
+               .truth = truth_});
   }
   void wait(int ticks, double z_m = kHighM) {
     for (int i = 0; i < ticks; ++i) tick(z_m);
@@ -60,6 +61,7 @@ class PatternTaskTest : public ::testing::Test {
   std::int64_t now_ns_ = 7'000'000'000;
   std::uint64_t places_ = 99;
   bool guided_ = false;
+  bool truth_ = false;
   bool swept_ = false;
 };
 
@@ -196,6 +198,24 @@ TEST_F(PatternTaskTest, CountsPushesInAGrooveOnceEach) {
   EXPECT_EQ(score().strokes, 3U);
 }
 
+// Another aid, for the whole of a task as soon as there was one tick of it.
+TEST_F(PatternTaskTest, NotesThatTheParticlesThemselvesWereShown) {
+  truth_ = true;
+  wait(100);
+  EXPECT_EQ(score().truth, 0U) << "the task has not begun";
+  truth_ = false;
+  stroke();
+  EXPECT_EQ(score().truth, 0U);
+  truth_ = true;
+  tick(kHighM);
+  truth_ = false;
+  wait(100);
+  EXPECT_EQ(score().truth, 1U);
+  order(EventKind::ParticlesPutBack);
+  stroke();
+  EXPECT_EQ(score().truth, 0U) << "another task";
+}
+
 TEST_F(PatternTaskTest, BeginsAnewWhenAllIsPutBackUnlessThatIsTakenBack) {
   stroke();
   wait(100);
@@ -221,8 +241,8 @@ TEST_F(PatternTaskTest, IsOneLineOfText) {
   stroke();
   wait(990);
   EXPECT_EQ(text_of(score()),
-            "not done after 1.0 s; pushes: 1, slipped past: 0, taken back: 0, in a groove: 0; 1.9 aJ of work, at most "
-            "200 pN sideways");
+            "not done after 1.0 s; pushes: 1, slipped past: 0, taken back: 0, in a groove: 0, particles shown: no; "
+            "1.9 aJ of work, at most 200 pN sideways");
 }
 
 // N71: a rod is laid across its pads, wherever its ends are.

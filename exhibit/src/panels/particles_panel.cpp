@@ -108,6 +108,16 @@ class ParticleRows {
   // With an explanation, which is seen with the sources.
   void add_explained(Phrase name, std::string value, Phrase why) { add_sourced(name, std::move(value), phrases_[why]); }
 
+  // Uses of an aid, counted.
+  std::string aids_of(const scene::TaskScore& score) const {
+    const std::string undos = fmt::format("{}", score.undos), guided = fmt::format("{}", score.guided);
+    const bool counted = score.undos + score.guided > 0;
+    if (score.truth == 0) {
+      return counted ? phrases_.text<Phrase::TaskAided>(undos, guided) : phrases_[Phrase::TaskUnaided];
+    }
+    return counted ? phrases_.text<Phrase::TaskAidedShown>(undos, guided) : phrases_[Phrase::TaskShown];
+  }
+
   // The clock while the task runs, the whole score once it is done.
   void add_task() {
     const scene::TaskScore& score = now_.score;
@@ -117,10 +127,7 @@ class ParticleRows {
         phrases_.number(fmt::format("{:.{}f} s", score.time_s, done ? 1 : 0)),
         phrases_.text<Phrase::TaskStrokes>(fmt::format("{}", score.strokes), fmt::format("{}", score.losses)));
     if (!done) return;
-    add(Phrase::TaskOff, quantity_text(physics::Length(score.rms_m), physics::kLengthUnits, phrases_),
-        score.undos + score.guided == 0
-            ? phrases_[Phrase::TaskUnaided]
-            : phrases_.text<Phrase::TaskAided>(fmt::format("{}", score.undos), fmt::format("{}", score.guided)));
+    add(Phrase::TaskOff, quantity_text(physics::Length(score.rms_m), physics::kLengthUnits, phrases_), aids_of(score));
     add(Phrase::TaskWork, quantity_text(physics::Energy(score.work_j), physics::kEnergyUnits, phrases_),
         phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
   }

@@ -9,7 +9,7 @@ namespace afm::exhibit {
 
 ParticleTask::ParticleTask(const scene::ParticleSet& set) : set_(set), task_(set, scene::shared_pattern_of(set)) {}
 
-void ParticleTask::add(const scene::TipSample& sample) {
+void ParticleTask::add(const scene::TipSample& sample, bool truth) {
   const auto& [x_m, y_m] = sample.surface.xy_m;
   task_.add(scene::TaskTick{.time_ns = sample.time_ns,
                             .base_m = {x_m, y_m, sample.tip.z_m},
@@ -18,7 +18,8 @@ void ParticleTask::add(const scene::TipSample& sample) {
                             .places = sample.push.digest,
                             .guided = sample.plan.guided != 0,
                             .carries = sample.push.state == physics::PushState::Carried,
-                            .swept = sample.scan.hand == scene::ScanHand::Looks});
+                            .swept = sample.scan.hand == scene::ScanHand::Looks,
+                            .truth = truth});
 }
 
 std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(
@@ -39,7 +40,7 @@ bool ParticleTask::look(std::span<const scene::ParticlePage> pages, const servo:
 
 void ParticleTask::hear(const servo::ReplayedTick& tick) {
   for (const scene::TipEvent& event : tick.events) add(event);
-  add(tick.sample);
+  add(tick.sample, tick.picture == nullptr);
   look(tick.pages, tick.picture);
 }
 

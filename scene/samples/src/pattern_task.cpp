@@ -56,6 +56,7 @@ void PatternTask::add(const TaskTick& tick) {
   if (lifted && !lifted_ns_) lifted_ns_ = tick.time_ns;
   if (score.state != TaskState::Done) count_work(tick);
   if (score.state == TaskState::Running) count_guidance(tick);
+  if (score.state == TaskState::Running && tick.truth) score.truth = 1;
   // the first stroke counts from its descent
   if (lifted && score.state == TaskState::NotBegun) score = {};
   if (score.state == TaskState::Running) score.time_s = 1e-9 * static_cast<double>(tick.time_ns - task_.begun_ns);
@@ -113,10 +114,11 @@ std::string text_of(const TaskScore& score) {
   if (score.state == TaskState::NotBegun) return "not begun";
   const bool done = score.state == TaskState::Done;
   return fmt::format(
-      "{} {:.1f} s{}; pushes: {}, slipped past: {}, taken back: {}, in a groove: {}; {} of work, at most {} sideways",
+      "{} {:.1f} s{}; pushes: {}, slipped past: {}, taken back: {}, in a groove: {}, particles shown: {}; {} of work, "
+      "at most {} sideways",
       done ? "done in" : "not done after", score.time_s,
       done ? fmt::format(", {} off", format_quantity(physics::Length(score.rms_m), physics::kLengthUnits, 3)) : "",
-      score.strokes, score.losses, score.undos, score.guided,
+      score.strokes, score.losses, score.undos, score.guided, score.truth != 0 ? "yes" : "no",
       format_quantity(physics::Energy(score.work_j), physics::kEnergyUnits, 3),
       format_quantity(physics::Force(score.largest_lateral_n), physics::kForceUnits, 3));
 }

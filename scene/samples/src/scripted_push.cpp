@@ -68,7 +68,8 @@ class ScriptedTask {
                .lateral_n = {lateral.x.si, lateral.y.si},
                .lift_n = touches ? lift_n : 0.0,
                .places = places_,
-               .carries = tick.state == physics::PushState::Carried});
+               .carries = tick.state == physics::PushState::Carried,
+               .truth = picture == nullptr});
     if (!task_.unjudged()) return;
     if (picture == nullptr) return task_.judge(places_of(particles));
     if (picture->all_measured()) task_.judge(picture->shown());

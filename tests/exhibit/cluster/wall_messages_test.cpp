@@ -235,7 +235,8 @@ TEST(WallHistoryTest, HasTheNewestScore) {
                               .losses = 2,
                               .undos = 1,
                               .guided = 4,
-                              .state = scene::TaskState::Done};
+                              .state = scene::TaskState::Done,
+                              .truth = 1};
   WallHistory here(1);
   here.apply(JournalRecord(scene::TaskScore{.time_s = 1.0, .state = scene::TaskState::Running}));
   here.apply(JournalRecord(done));

@@ -21,9 +21,10 @@ class ParticleTask {
   // `set` has targets and must outlive the object.
   explicit ParticleTask(const scene::ParticleSet& set);
 
-  // Call in order of time, with the events of a tick before its sample.
+  // Call in order of time, with the events of a tick before its sample. `truth`: there is no picture, so that the
+  // particles themselves are shown.
   void add(const scene::TipEvent& event) { task_.add(event.kind); }
-  void add(const scene::TipSample& sample);
+  void add(const scene::TipSample& sample, bool truth = true);
 
   // Call with the newest pages after the newest sample: ends the task if these are the places that it waits to see.
   // True if it ended. With a picture, it ends only once all that was pushed has been measured, by the measured places.

@@ -14,6 +14,8 @@
   PHRASE(TaskOff, "task-off", "", kLine)                                   \
   PHRASE(TaskUnaided, "task-unaided", "", kLine)                           \
   PHRASE(TaskAided, "task-aided", "count guided", kLine)                   \
+  PHRASE(TaskShown, "task-shown", "", kLine)                               \
+  PHRASE(TaskAidedShown, "task-aided-shown", "count guided", kLine)        \
   PHRASE(TaskWork, "task-work", "", kLine)                                 \
   PHRASE(TaskLargest, "task-largest", "force", kLine)                      \
   PHRASE(PlanWay, "plan-way", "", kLine)                                   \

@@ -26,6 +26,7 @@ struct TaskTick {
   bool guided = false;                // a groove guides the hand
   bool carries = false;               // true: a particle hangs on the tip, so that the pattern is not left
   bool swept = false;                 // a scan pushes the particles, not the hand
+  bool truth = false;                 // the particles are shown, not a picture of them
 };
 
 // A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done

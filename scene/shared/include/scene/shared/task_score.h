@@ -22,7 +22,7 @@ struct TaskScore {
   std::uint32_t undos = 0;       // pushes taken back, which is an aid
   std::uint32_t guided = 0;      // pushes along a groove (haptics/felt_groove.h), another aid
   TaskState state = TaskState::NotBegun;
-  std::uint32_t padding = 0;
+  std::uint32_t truth = 0;  // 1: the particles themselves were shown, not a picture of them, which is an aid, too
 
   bool operator==(const TaskScore&) const = default;
 };
@@ -38,7 +38,7 @@ constexpr void for_each_field(Visit&& visit, Record&... score) {
   visit("undos", score.undos...);
   visit("guided", score.guided...);
   visit("state", score.state...);
-  visit("padding", score.padding...);
+  visit("truth", score.truth...);
 }
 static_assert(all_fields_described<TaskScore>());
 
