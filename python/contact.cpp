@@ -213,7 +213,7 @@ void add_law_class(py::module_& module) {
                      [](const py::tuple& state) {
                        if (state.size() != 1)
                          throw py::value_error("this is no pickled law of this version of touchafm");
-                       const auto& contact = state[0].cast<const Contact&>();
+                       const auto contact = state[0].cast<Contact>();
                        return make_law(contact.options().model, contact);
                      }));
   law.def("__repr__", [](const Law& self) { return fmt::format("<touchafm.Law {}>", self.name); });

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a hand felt: the forces and events of a recorded session.
 
-`touchafm demo --out out` records one without a device, `touchafm view --record DIR` those of your own hand.
+`touchafm demo --model auto --out out` records one without a device, `touchafm view --record DIR` those of your own hand.
 
 >>> import touchafm
 >>> session = touchafm.session("out/session-mica.afms")
