@@ -22,9 +22,9 @@ layout(location = 2) in vec4 color;
 // centroid: as in scene.vert
 layout(location = 0) centroid out vec3 room_position;
 layout(location = 1) centroid out vec4 shadow_place;  // w: see shadow_place.glsl
-layout(location = 2) centroid out vec3 radiance_in_shadow;
-layout(location = 3) centroid out vec3 radiance_in_light;
-layout(location = 4) centroid out vec4 own;  // emitted light, and alpha
+layout(location = 2) out vec3 radiance_in_shadow;
+layout(location = 3) out vec3 radiance_in_light;
+layout(location = 4) out vec4 own;  // emitted light, and alpha
 
 #include "placing.glsl"
 #include "shadow_place.glsl"

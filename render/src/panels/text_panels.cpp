@@ -258,6 +258,7 @@ class Notes {
       text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
     }
     if (first_line_ == 0) first_line_ = count_;
+    broken_ = first_line_;
   }
 
   // Moves facts of the second line to the end of the first while that enlarges the smaller letters.
@@ -279,26 +280,37 @@ class Notes {
   void paint(Canvas& canvas, glm::vec2 position, std::size_t from, std::size_t to, float room_mm) const {
     const float fitted = fit(from, to, room_mm);
     position.y += 0.5F * scale_ * (1.0F - fitted) * text_height_mm(kNoteInk.style);
-    for (; from < to; ++from) {
-      canvas.text(position, kNoteInk.style, kNoteInk.color, notes_[from], Align::Left, fitted * scale_);
-      position.x += fitted * (width_mm(from) + gap_mm_);
-    }
+    for_each_run(from, to, [&](std::string_view run) {
+      canvas.text(position, kNoteInk.style, kNoteInk.color, run, Align::Left, fitted * scale_);
+      position.x += fitted * (width_mm(run) + gap_mm_);
+    });
   }
 
  private:
-  float width_mm(std::size_t note) const { return canvas_->text_width_mm(kNoteInk.style, notes_[note], scale_); }
+  float width_mm(std::string_view run) const { return canvas_->text_width_mm(kNoteInk.style, run, scale_); }
+
+  // Calls `use` with the facts before the text's line break, and with those after it.
+  template <class Use>
+  void for_each_run(std::size_t from, std::size_t to, const Use& use) const {
+    while (from < to) {
+      const std::size_t end = from < broken_ ? std::min(broken_, to) : to;
+      const char* const last = notes_[end - 1].data() + notes_[end - 1].size();
+      use(std::string_view(notes_[from].data(), static_cast<std::size_t>(last - notes_[from].data())));
+      from = end;
+    }
+  }
 
   // Reduction of a line, so that no word is cut.
   float fit(std::size_t from, std::size_t to, float room_mm) const {
     float width = from < to ? -gap_mm_ : 0.0F;
-    for (; from < to; ++from) width += width_mm(from) + gap_mm_;
+    for_each_run(from, to, [&](std::string_view run) { width += width_mm(run) + gap_mm_; });
     return std::min(1.0F, room_mm / std::max(width, 1.0F));
   }
 
   const Canvas* canvas_;
   float scale_, gap_mm_;
   std::array<std::string_view, 16> notes_;
-  std::size_t count_ = 0, first_line_ = 0;
+  std::size_t count_ = 0, first_line_ = 0, broken_ = 0;
 };
 
 }  // namespace
