@@ -18,6 +18,14 @@ bool same_swing_beside(const TapState& before, const TapState& after, Length dis
   return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(turned) < kSamePhase;
 }
 
+// Whether a swing could rest: the drive sustains no larger one, and its phase has not turned on and on, as in the
+// averaged flow of a lever far from its resonance.
+bool could_rest(const TapState& state, const DrivenLever& lever) {
+  constexpr double kMostTurn = 4.0 * std::numbers::pi, kRounding = 1.001;
+  const Length largest = lever.base_amplitude * (lever.quality_factor / lever.ratio);
+  return std::abs(state.phase) < kMostTurn && state.amplitude < kRounding * largest;
+}
+
 // A walk in one direction.
 struct Walked {
   bool follows = false;  // the swing is known to rest on a branch
@@ -147,6 +155,7 @@ void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& st
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
     if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, walked);
+    if (!flow.is_as_felt() && !could_rest(state, flow.lever())) curve.lost_at = heights[i];
     if (curve.lost_at) return;
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
     if (reached) reached();

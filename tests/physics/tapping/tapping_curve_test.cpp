@@ -55,6 +55,19 @@ TEST(TappingCurve, HasFoldsThatDoNotDependOnTheStep) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(nm_of(coarse.jumps[i].z), nm_of(fine.jumps[i].z), 1e-6);
 }
 
+// Far from the resonance the flow turned faster than its steps; the curve had phases of 1e11 degrees
+TEST(TappingCurve, LosesItsAveragesWhereTheFlowTurnsOnAndOn) {
+  const TappedSample soft{
+      .k = 0.872, .q = 403.5, .ratio = 13.75 / 12.97, .a0_nm = 95.4, .r_nm = 50, .h_zj = 60, .e_gpa = 80};
+  const TappingCurve curve =
+      record_tapping_curve(soft.surface(Law::Jkr), soft.lever(), {{105_nm, 9.5_nm, 1.6_nm}, {}}, TapMethod::Averaged);
+  EXPECT_TRUE(curve.lost_at);
+  for (const TapPoint& point : curve.points) {
+    EXPECT_LT(std::abs(point.state.phase), 7.0) << nm_of(point.z);
+    EXPECT_LT(nm_of(point.state.amplitude), 2.0 * soft.a0_nm) << nm_of(point.z);
+  }
+}
+
 // A curve may take a minute, so that whoever waits has to see it go on.
 TEST(TappingCurve, CountsEachHeightAndThoseOfItsIslands) {
   const TappedSample sample{.q = 100.0};
