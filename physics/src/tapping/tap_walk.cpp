@@ -155,7 +155,7 @@ void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& st
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
     if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, walked);
-    if (!flow.is_as_felt() && !could_rest(state, flow.lever())) curve.lost_at = heights[i];
+    if (!curve.lost_at && !flow.is_as_felt() && !could_rest(state, flow.lever())) curve.lost_at = heights[i];
     if (curve.lost_at) return;
     add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
     if (reached) reached();
