@@ -37,7 +37,7 @@ function(afm_test)
   string(REPLACE "." "_" target "test_${T_NAME}")
   string(REGEX REPLACE "\\..*" "" folder "${T_NAME}")
   if(NOT T_TIMEOUT)
-    set(T_TIMEOUT 120)
+    set(T_TIMEOUT 300)  # for a machine several times as busy as usual
   endif()
   set(serial ${T_SERIAL})  # by option or label
   set(deep_serial ${T_SERIAL})  # the same for its cases of label deep
