@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kBarUs = 20.0;  // limit set by the design
 constexpr double kRadiusM = 25e-9;
-constexpr double kPitchM = 70e-9;    // of a square lattice with two fifths of its area covered
+constexpr double kPitchM = 70e-9;    // pitch of a square lattice with two fifths of its area covered
 constexpr double kHandMPerS = 0.05;  // fastest part of a line
 
 struct Crowd {
@@ -30,7 +30,7 @@ struct Crowd {
   std::vector<glm::dvec2> places_m;
   double bar_us = 0;
   double hand_m_per_s = kHandMPerS;
-  double pitch_m = kPitchM;  // of its lattice, and of the lines
+  double pitch_m = kPitchM;  // pitch of the lattice and of the lines
   double tip_radius_m = 10e-9;
 };
 

@@ -255,6 +255,10 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_THAT(refusal(changed("\"25 nm\"", "\"-25 nm\"")), HasSubstr("species.radius: radius -25 nm is not within"));
   EXPECT_THAT(refusal(changed("\"10 MPa\"", "\"0 Pa\"")), HasSubstr("species.shear_strength"));
   EXPECT_THAT(refusal(changed("\"79 GPa\"", "\"79 Pa\"")), HasSubstr("species."));
+  EXPECT_THAT(refusal(changed("\"79 GPa\"", "\"-79 GPa\"")),
+              HasSubstr("species.particle_modulus: particle modulus -79 GPa is not within"));
+  EXPECT_THAT(refusal(changed("value = 0.44", "value = 4.4")),
+              HasSubstr("species.particle_poisson_ratio: particle poisson ratio 4.4"));
   EXPECT_THAT(refusal(changed("\"10 nm\"", "\"80 nm\"")), HasSubstr("at least half the tip's"));
   EXPECT_THAT(refusal(changed("value = 15", "value = 95")), HasSubstr("tip.half_angle_deg"));
   EXPECT_THAT(refusal(changed("\"1 N/m\"", "\"1 mJ/m2\"")), HasSubstr("lever.normal_spring"));

@@ -47,6 +47,19 @@ std::string_view key_of(std::string_view field, std::span<const KeyOfField> keys
   return at == keys.end() ? field : at->key;
 }
 
+// Its message with the key of the file in place of the field that it begins with: "particle modulus -1 Pa is not ...".
+std::string message_of(const physics::UnphysicalValue& error, std::string_view key) {
+  const auto in_words = [](std::string_view name) {
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+  };
+  std::string message = error.what();
+  const std::string field = in_words(error.field());
+  if (message.starts_with(field + " ")) message.replace(0, field.size(), in_words(key));
+  return message;
+}
+
 // A rod's friction is given per length, and its stiffness limits how long it may be: it is pushed as a rigid body.
 physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) {
   table.allow_only({"name", "radius", "length", "particle_modulus", "friction_per_length", "kinetic_ratio", "ageing"});
@@ -151,7 +164,8 @@ physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entr
     species.contact.reduced_modulus = physics::reduced_modulus(particle, sample);
     physics::validate(species);
   } catch (const physics::UnphysicalValue& error) {
-    table.refuse(key_of(error.field(), kSpeciesKeys), error.what());
+    const std::string_view key = key_of(error.field(), kSpeciesKeys);
+    table.refuse(key, message_of(error, key));
   }
   entry.sources = values.take_sources();
   return species;

@@ -198,6 +198,37 @@ TEST_F(ClusterViewTest, ShowsTheMarksOfATipWithInk) {
   EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
 }
 
+// The other machines show the numbers of each law, lever, tip, medium and tool that is chosen, as does one that comes
+// later.
+TEST_F(ClusterViewTest, FollowsTheSettingsAmongParticles) {
+  const auto left = node("left");
+  auto right = node("right");
+  std::vector<std::string> command = master_command();
+  command.insert(command.end(), {"--particles", "gold-row", "--haptics", "sim"});
+  const auto hand = start(command);
+  expect_both_shown(*hand);
+  press_at_master("1");
+  ASSERT_TRUE(hand->says("chosen: Mica")) << hand->said();
+  for (const char* chosen : {"friction law amontons", "lever ", "tip ", "medium humid air", "tool grip"}) {
+    press_at_master("Insert");
+    ASSERT_TRUE(hand->says("; Delete chooses the next")) << hand->said();
+    press_at_master("Delete");
+    ASSERT_TRUE(hand->says(chosen)) << hand->said();
+    ASSERT_TRUE(hand->says(": as soon as the tip is off")) << hand->said();
+    EXPECT_NE(hand->says_one_of({": in use", ": the tip holds what it touched"}), "") << chosen << hand->said();
+    EXPECT_TRUE(all_same()) << chosen << hand->said();
+  }
+  right->signal(SIGTERM);
+  EXPECT_EQ(right->ends(), 0) << right->said();
+  right = node("right");
+  ASSERT_TRUE(hand->says("node right shows the wall")) << hand->said();
+  EXPECT_TRUE(all_same()) << hand->said();
+  press_at_master("Escape");
+  EXPECT_EQ(hand->ends(), 0) << hand->said();
+  EXPECT_THAT(hand->said(), HasSubstr(" 0 built otherwise"));
+  EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
+}
+
 // Junk, another build, and a wall that names what this machine lacks.
 TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown) {
   const auto left = node("left");

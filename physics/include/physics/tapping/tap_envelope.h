@@ -144,7 +144,7 @@ class TapEnvelope {
   double u_ = 0, v_ = 0, amplitude_ = 0;
   double gap_m_ = 0;  // gap of the newest swing
   struct Cells {
-    Cell first, middle, longer;  // of a step's beginning and middle, and of its ringing
+    Cell first, middle, longer;  // cells of a step's beginning, of its middle, and of its ringing
   } cells_;
 };
 
