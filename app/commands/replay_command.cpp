@@ -178,7 +178,7 @@ core::Result<void> run_replay(const ReplayOptions& options, const std::string& a
   const servo::ReplayRange& range = options.range;
   if (!(range.from_s >= 0.0 && range.from_s <= seconds(*session) && range.to_s >= range.from_s)) {
     return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("--from {:g}, --to {:g}: the session has no such part; it lasts {:.3f} s",
+                         fmt::format("--from {:g} s, --to {:g} s: the session has no such part; it lasts {:.3f} s",
                                      range.from_s, range.to_s, seconds(*session)));
   }
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));

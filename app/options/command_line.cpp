@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -103,6 +104,18 @@ TypedCommand typed_command(const CLI::App& program) {
     words += " " + last->get_name();
   }
   return {.words = words, .command = describe_command(*last), .left = last->remaining(true)};
+}
+
+// What to give instead of a text that is no number: "; give SECONDS, without a unit".
+std::string number_for(const CommandDescription& command, const std::string& option, const std::string& written) {
+  for (const OptionDescription& known : command.options) {
+    if (known.name != option) continue;
+    const bool comma = written.find(',') != std::string::npos;
+    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    const bool unit = !comma && !written.empty() && !is_letter(written.front()) && is_letter(written.back());
+    return fmt::format("; give {}{}", known.value, comma ? ", with a decimal point" : unit ? ", without a unit" : "");
+  }
+  return "";
 }
 
 bool has_check(CLI::Option& option, const char* name) {
@@ -372,8 +385,9 @@ core::Result<std::string> CommandLine::parse(int count, const char* const* argum
     const std::string text = wrong.what();
     const std::size_t name = text.find(": "), value = text.find(" = ");
     if (name == std::string::npos || value == std::string::npos) return core::wrong_usage(text);
-    return core::wrong_usage(fmt::format("{}: cannot read \"{}\" as a number that it takes",
-                                         text.substr(name + 2, value - name - 2), text.substr(value + 3)));
+    const std::string option = text.substr(name + 2, value - name - 2), written = text.substr(value + 3);
+    return core::wrong_usage(fmt::format("{}: cannot read \"{}\" as a number that it takes{}", option, written,
+                                         number_for(typed_command(*app_).command, option, written)));
   } catch (const CLI::ParseError& wrong) {
     const int code = wrong.get_exit_code();
     const bool incomplete = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||

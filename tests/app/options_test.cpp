@@ -51,6 +51,15 @@ TEST_F(OptionsTest, TheVersionIsAnAnswerAndAnUnknownOptionWrongUsage) {
   EXPECT_THAT(wrong.error().message, HasSubstr("--fast"));
 }
 
+TEST_F(OptionsTest, ATextThatIsNoNumberIsAnsweredWithWhatTheOptionTakes) {
+  double at_s = 0.0;
+  command_.add_option("--option", at_s, "time of the picture").type_name("SECONDS");
+  EXPECT_EQ(refusal("5s"), "--option: cannot read \"5s\" as a number that it takes; give SECONDS, without a unit");
+  EXPECT_EQ(refusal("2,5"),
+            "--option: cannot read \"2,5\" as a number that it takes; give SECONDS, with a decimal point");
+  EXPECT_EQ(refusal("soon"), "--option: cannot read \"soon\" as a number that it takes; give SECONDS");
+}
+
 TEST_F(OptionsTest, WhatIsWrongIsSaidWithWhatToWriteInstead) {
   std::string model, file;
   int width = 0;
