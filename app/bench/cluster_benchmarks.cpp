@@ -159,7 +159,10 @@ void add_cluster_benchmarks(OptionList& bench, const CommandContext& context) {
       .within(1, static_cast<int>(scene::kMostNodes))
       .show_default();
   command.add_option("--frames", options->plan.frames, "number of frames").within(10, 1'000'000).show_default();
-  command.add_option("--rate", options->plan.frames_per_s, "frames in a second").within(1.0, 1000.0).show_default();
+  command.add_option("--rate", options->plan.frames_per_s, "frames in a second")
+      .within(1.0, 1000.0)
+      .show_default()
+      .type_name("HZ");
   command.add_option("--interface", options->interface_address, "address or name of the network interface")
       .show_default()
       .type_name("ADDRESS");

@@ -265,7 +265,8 @@ void add_haptics_benchmarks(OptionList& bench, const CommandContext& context) {
   command.add_option("--ticks", options->ticks, "ticks per law").within(1000, 10'000'000).show_default();
   command.add_option("--seconds", options->seconds, "run time of the servo alongside the renderer, s")
       .within(0.5, 600.0)
-      .show_default();
+      .show_default()
+      .type_name("SECONDS");
   command.add_option("--rounds", options->rounds, "number of renderers to kill and to stop")
       .within(1, 1000)
       .show_default();

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cctype>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -106,16 +104,23 @@ TypedCommand typed_command(const CLI::App& program) {
   return {.words = words, .command = describe_command(*last), .left = last->remaining(true)};
 }
 
-// What to give instead of a text that is no number: "; give SECONDS, without a unit".
-std::string number_for(const CommandDescription& command, const std::string& option, const std::string& written) {
-  for (const OptionDescription& known : command.options) {
-    if (known.name != option) continue;
-    const bool comma = written.find(',') != std::string::npos;
-    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-    const bool unit = !comma && !written.empty() && !is_letter(written.front()) && is_letter(written.back());
-    return fmt::format("; give {}{}", known.value, comma ? ", with a decimal point" : unit ? ", without a unit" : "");
+// Refuses a text that is no number of the limits' type, NaN, and a number outside the limits.
+template <class Number>
+void check_range(CLI::Option& option, Number least, Number most) {
+  const auto refusal = [&option, least, most](std::string& text) -> std::string {
+    Number value{};
+    if (!CLI::detail::lexical_cast(text, value)) return no_number(value_of(option), text);
+    // written so that NaN is refused
+    if (value >= least && value <= most) return "";
+    return fmt::format("{} is out of range; give {}", text, value_of(option));
+  };
+  std::string limits;
+  if constexpr (std::integral<Number>) {
+    limits = fmt::format("from {} to {}", least, most);
+  } else {
+    limits = fmt::format("from {:g} to {:g}", least, most);
   }
-  return "";
+  option.check(CLI::Validator(refusal, limits));
 }
 
 bool has_check(CLI::Option& option, const char* name) {
@@ -242,17 +247,12 @@ Option& Option::excludes(const Option& other) {
 }
 
 Option& Option::within(int least, int most) {
-  option_->check(CLI::Range(least, most).description(fmt::format("from {} to {}", least, most)));
+  check_range(*option_, least, most);
   return *this;
 }
 
 Option& Option::within(double least, double most) {
-  // CLI11's own range check lets NaN through
-  option_->check(CLI::Range(least, most).description(fmt::format("from {:g} to {:g}", least, most)))
-      ->check([](const std::string& text) {
-        double value = 0.0;
-        return CLI::detail::lexical_cast(text, value) && std::isnan(value) ? text + " is not a number" : std::string();
-      });
+  check_range(*option_, least, most);
   return *this;
 }
 
@@ -386,8 +386,7 @@ core::Result<std::string> CommandLine::parse(int count, const char* const* argum
     const std::size_t name = text.find(": "), value = text.find(" = ");
     if (name == std::string::npos || value == std::string::npos) return core::wrong_usage(text);
     const std::string option = text.substr(name + 2, value - name - 2), written = text.substr(value + 3);
-    return core::wrong_usage(fmt::format("{}: cannot read \"{}\" as a number that it takes{}", option, written,
-                                         number_for(typed_command(*app_).command, option, written)));
+    return core::wrong_usage(option + ": " + no_number(taken_by(typed_command(*app_).command, option), written));
   } catch (const CLI::ParseError& wrong) {
     const int code = wrong.get_exit_code();
     const bool incomplete = code == static_cast<int>(CLI::ExitCodes::RequiredError) ||

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cctype>
 #include <regex>
 #include <vector>
 
@@ -19,14 +20,6 @@ std::vector<OptionDescription> options_of(const CommandDescription& command) {
     options.insert(options.end(), group.options.begin(), group.options.end());
   }
   return options;
-}
-
-// Values of the option or argument of this name.
-std::string taken_by(const CommandDescription& command, const std::string& name) {
-  for (const OptionDescription& option : options_of(command)) {
-    if (option.name == name) return option.value;
-  }
-  return "";
 }
 
 std::vector<std::string> commands_of(const CommandDescription& command) {
@@ -89,6 +82,22 @@ std::string reworded(const CommandDescription& command, const std::string& text)
 }
 
 }  // namespace
+
+std::string taken_by(const CommandDescription& command, const std::string& name) {
+  for (const OptionDescription& option : options_of(command)) {
+    if (option.name == name) return option.value;
+  }
+  return "";
+}
+
+std::string no_number(const std::string& value, const std::string& written) {
+  std::string text = fmt::format("cannot read \"{}\" as a number that it takes", written);
+  if (value.empty()) return text;
+  const bool comma = written.find(',') != std::string::npos;
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const bool unit = !comma && !written.empty() && !is_letter(written.front()) && is_letter(written.back());
+  return text + "; give " + value + (comma ? ", with a decimal point" : unit ? ", without a unit" : "");
+}
 
 std::string usage_text(const TypedCommand& typed, const std::string& text, bool incomplete) {
   std::string said = incomplete ? about_extra(typed) : "";

@@ -15,6 +15,13 @@ struct TypedCommand {
   std::vector<std::string> left;  // words that fit nothing
 };
 
+// Values of the option or argument of this name, as in the help.
+std::string taken_by(const CommandDescription& command, const std::string& name);
+
+// Refusal of a text that is no number: "cannot read ...; give SECONDS, without a unit". `value`: what the option takes,
+// or empty.
+std::string no_number(const std::string& value, const std::string& written);
+
 // What is wrong with a command line, in the words of its user, what to write instead, and where to read on. `text` is
 // the parser's message; `incomplete`: words are left, or something required is missing, perhaps under a wrong name.
 std::string usage_text(const TypedCommand& typed, const std::string& text, bool incomplete);

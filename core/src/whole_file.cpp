@@ -13,9 +13,11 @@
 #include <optional>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "core/file_descriptor.h"
 #include "core/interruption.h"
+#include "core/log.h"
 #include "core/system_error.h"
 #include "core/write_all.h"
 
@@ -44,10 +46,13 @@ const char* kind_of(mode_t mode) {
 // errno.
 int write_into(const std::string& path, std::string_view bytes) {
   const auto end = std::chrono::steady_clock::now() + kReaderPatience;
+  bool is_said = false;
   FileDescriptor file;
   // opening a pipe without a reader fails instead of blocking
   while (!(file = FileDescriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK))).is_open()) {
     if (errno != ENXIO || std::chrono::steady_clock::now() > end) return errno;
+    if (!std::exchange(is_said, true))
+      log_line(path + " is a pipe: waiting up to 5 s for a program that reads from it");
     std::this_thread::sleep_for(kReaderPause);
   }
   if (::fcntl(file.get(), F_SETFL, 0) != 0) return errno;

@@ -149,10 +149,22 @@ TEST_F(OptionsTest, ANumberStaysWithinItsRange) {
   double seconds = 2.5;
   command_.add_option("--option", seconds, "how long").within(0.5, 600.0).show_default();
   for (const char* end : {"0.5", "600"}) EXPECT_EQ(refusal(end), "");
-  for (const char* wrong : {"0.4", "601", "soon"}) EXPECT_THAT(refusal(wrong), HasSubstr("not in range")) << wrong;
-  for (const char* wrong : {"nan", "-NaN"}) EXPECT_THAT(refusal(wrong), HasSubstr("is not a number")) << wrong;
+  for (const char* wrong : {"0.4", "601", "inf", "nan", "-NaN"}) {
+    EXPECT_THAT(refusal(wrong), HasSubstr(std::string(wrong) + " is out of range; give NUMBER from 0.5 to 600"));
+  }
+  EXPECT_THAT(refusal("soon"), HasSubstr("cannot read \"soon\" as a number that it takes; give NUMBER from 0.5"));
   EXPECT_EQ(seconds, 600.0);
   EXPECT_THAT(help(), AllOf(HasSubstr("--option NUMBER from 0.5 to 600"), HasSubstr("how long; default: 2.5")));
+}
+
+TEST_F(OptionsTest, ANumberOutOfItsRangeIsAnsweredWithItsUnit) {
+  int pixels = 0;
+  command_.add_option("--option", pixels, "width").within(64, 8192).type_name("PIXELS");
+  EXPECT_THAT(refusal("90000"), HasSubstr("--option: 90000 is out of range; give PIXELS from 64 to 8192; see"));
+  EXPECT_THAT(refusal("90px"), HasSubstr("--option: cannot read \"90px\" as a number that it takes; give PIXELS from "
+                                         "64 to 8192, without a unit; see"));
+  EXPECT_THAT(refusal("90.5"), HasSubstr("give PIXELS from 64 to 8192"));
+  EXPECT_EQ(refusal("8192"), "");
 }
 
 TEST_F(OptionsTest, AQuantityIsReadInSiAndRefusedWithItsUnits) {

@@ -92,7 +92,9 @@ TEST_F(WholeFile, DevicesAndPipesStayWhatTheyAre) {
 TEST_F(WholeFile, APipeWithoutAReaderIsNotWaitedForForEver) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   const auto begin = std::chrono::steady_clock::now();
+  testing::internal::CaptureStderr();
   const auto written = write_file(path("pipe"), "x");
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("pipe is a pipe: waiting up to 5 s"));
   ASSERT_FALSE(written);
   EXPECT_THAT(written.error().message, EndsWith("pipe: no program reads from it"));
   const auto read = read_file(path("pipe"));

@@ -251,7 +251,7 @@ TEST_F(Exporters, NamesAnImageOfAnotherFormat) {
            {"<!DOCTYPE html><html>", "an HTML page"},
            {"", "empty"}}) {
     write("image", bytes);
-    expect_refused(load(document), kind);
+    expect_refused(load(document), "/images/0 'image' cannot be decoded: it is " + kind);
   }
 }
 

@@ -126,7 +126,8 @@ const std::vector<HostileCase>& hostile_cases() {
          d["nodes"].push_back({{"children", {3}}});
          d["nodes"].push_back({{"children", {2}}});
        }},
-      {"NodeWithTwoParents", "more than one parent", [](json& d) { d["nodes"].push_back({{"children", {1}}}); }},
+      {"NodeWithTwoParents", "/nodes/2 'rack' has the child 1 'surface', which has more than one parent",
+       [](json& d) { d["nodes"].push_back({{"name", "rack"}, {"children", {1}}}); }},
       {"SceneMissing", "/scene is 5", [](json& d) { d["scene"] = 5; }},
       {"SceneWithMissingNode", "/scenes/0/nodes/0 is 9", [](json& d) { d["scenes"][0]["nodes"] = {9}; }},
       {"SceneWithAChild", "not a root", [](json& d) { d["scenes"][0]["nodes"] = {0, 1}; }},
@@ -374,7 +375,7 @@ TEST_F(HostileGltf, IsRefusedForImagesThatAreNone) {
   write("bomb.png", bomb);
   expect_refused(load(with_image("bomb.png")), "65535 x 65535 pixels");
   write("cut.png", tiny_png().substr(0, 50));
-  expect_refused(load(with_image("cut.png")), "/images/0 cannot be decoded: its PNG data is corrupt");
+  expect_refused(load(with_image("cut.png")), "/images/0 'cut.png' cannot be decoded: its PNG data is corrupt");
   write("cut.jpg", "\xFF\xD8\xFF\xE0 and nothing more");
   expect_refused(load(with_image("cut.jpg")), "its JPEG header is corrupt");
   write("text.png", "not an image at all");

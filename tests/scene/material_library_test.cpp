@@ -235,6 +235,8 @@ TEST(MaterialFile, RefusesElasticityThatNoBodyHas) {
   EXPECT_TRUE(load_text(bodies("60 GPa", "0.25")).has_value());
   EXPECT_THAT(refusal(bodies("1e30 Pa", "0.25")), HasSubstr("line 15: material.sample_modulus: sample modulus"));
   EXPECT_THAT(refusal(bodies("60 GPa", "0.6")), HasSubstr("line 16: material.sample_poisson_ratio"));
+  EXPECT_THAT(refusal(bodies("60 GPa", "-1")), HasSubstr("is not above -1 and at most 0.5")) << "it would be rigid";
+  EXPECT_TRUE(load_text(bodies("60 GPa", "-0.5")).has_value()) << "auxetic bodies exist";
   EXPECT_THAT(refusal(bodies("60 GPa", "nan")), HasSubstr("line 16: material.sample_poisson_ratio"));
   EXPECT_THAT(refusal(bodies("60 GPa", "\"0.25\"")), HasSubstr("must be a number without a unit"));
 }

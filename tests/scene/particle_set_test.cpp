@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/whole_file.h"
+#include "scene/samples/particle_files.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 
@@ -246,6 +247,16 @@ TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
   EXPECT_EQ(unknown.setup.species[0].kinetic_ratio, recorded->species[0].kinetic_ratio);
   ASSERT_EQ(unknown.particles.size(), set->particles.size());
   EXPECT_EQ(unknown.particles[1].position.x.si, recorded->particles[1].x_m);
+}
+
+TEST(ParticleSet, IsNotLookedForAmongNone) {
+  const support::ScratchFolder folder;
+  const auto none = particle_file("gold-row", folder.file("removed"));
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().category, core::ErrorCategory::Failed);
+  EXPECT_THAT(none.error().message,
+              HasSubstr("there are no sets in " + folder.file("removed/particles") + "; install"));
+  EXPECT_THAT(particle_file("silver-row", support::source("assets")).error().message, HasSubstr("choose gold-row, "));
 }
 
 TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {

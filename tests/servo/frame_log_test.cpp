@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "servo/frame_log.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <sstream>
 
+#include "core/file_descriptor.h"
 #include "core/whole_file.h"
 #include "support/scratch_folder.h"
 
@@ -74,6 +77,23 @@ TEST(FrameLog, SaysAtTheEndThatTheDiskWasFull) {
   const auto done = (*log)->finish();
   ASSERT_FALSE(done);
   EXPECT_THAT(done.error().message, HasSubstr("No space left on device"));
+}
+
+TEST(FrameLog, WaitsForNoReaderOfAPipeForEver) {
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("pipe");
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  const auto refused = FrameLog::create(path, 0);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("no program reads from it"));
+
+  const core::FileDescriptor idle(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  auto log = FrameLog::create(path, 0);
+  ASSERT_TRUE(log) << log.error().message;
+  for (int i = 0; i < 5000; ++i) (*log)->add({.begun_ns = 1, .presented_ns = 2});
+  const auto done = (*log)->finish();
+  ASSERT_FALSE(done);
+  EXPECT_THAT(done.error().message, HasSubstr("took nothing for 5 s"));
 }
 
 TEST(ServoLateness, IsThatOfTheTicksSinceTheFrameBefore) {

@@ -13,7 +13,7 @@ struct Elasticity {
 
 // E* of two bodies in contact, 1/E* = (1 - nu_t^2)/E_t + (1 - nu_s^2)/E_s (Hertz 1881). Throws UnphysicalValue with the
 // field tip_modulus, tip_poisson_ratio, sample_modulus or sample_poisson_ratio unless the moduli are within 1 Pa to 10
-// TPa and Poisson's ratios within -1 to 0.5.
+// TPa and Poisson's ratios above -1 and at most 0.5.
 Pressure reduced_modulus(const Elasticity& tip, const Elasticity& sample);
 
 }  // namespace afm::physics

@@ -39,6 +39,12 @@ core::Result<std::string> particle_file(const std::string& name_or_path, const s
   }
   std::error_code ignored;
   if (std::filesystem::exists(name_or_path, ignored)) return name_or_path;
+  if (known.empty()) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot look for the particles \"{}\": there are no sets in {}; install TouchAFM "
+                                     "again, or give the path of a file",
+                                     name_or_path, folder_of(assets_dir)));
+  }
   return core::wrong_usage(fmt::format("unknown set of particles \"{}\"; choose {}, or give the path of a file",
                                        name_or_path, fmt::join(known, ", ")));
 }

@@ -3,15 +3,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
 #include <iterator>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "core/system_error.h"
-#include "core/write_all.h"
 #include "core/written_by.h"
 
 namespace afm::servo {
@@ -20,6 +22,7 @@ namespace {
 
 constexpr mode_t kFrameLogMode = 0666;  // minus the user's umask
 constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
+constexpr int kReaderPatienceMs = 5000;
 constexpr auto kBetweenWrites = std::chrono::milliseconds(500);
 
 constexpr const char* kColumns =
@@ -35,9 +38,27 @@ constexpr const char* kColumns =
     "pose_age_ms,headset\n";
 
 core::Result<void> cannot_log(const std::string& path, int error) {
+  std::string why = core::system_error(error);
+  if (error == ENXIO) why = "no program reads from it";
+  if (error == EAGAIN) why = "the program that reads from it took nothing for 5 s";
   return core::failure(core::ErrorCategory::Failed,
-                       fmt::format("--frame-log: cannot write {} ({}); name a file in a writable folder", path,
-                                   core::system_error(error)));
+                       fmt::format("--frame-log: cannot write {} ({}); name a file in a writable folder", path, why));
+}
+
+// As core::write_all(), but waits only a while for the reader of a pipe.
+int write_patiently(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written < 0 && errno == EAGAIN) {
+      pollfd room{.fd = descriptor, .events = POLLOUT, .revents = 0};
+      if (::poll(&room, 1, kReaderPatienceMs) == 0) return EAGAIN;
+    } else if (written < 0 && errno != EINTR) {
+      return errno;
+    }
+  }
+  return 0;
 }
 
 std::string text_of(const std::optional<double>& value, double factor) {
@@ -60,7 +81,9 @@ std::optional<std::uint32_t> ServoLateness::since_last(const scene::ServoTiming&
 }
 
 core::Result<std::unique_ptr<FrameLog>> FrameLog::create(const std::string& path, std::int64_t start_ns) {
-  core::FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, kFrameLogMode));
+  // opening a pipe without a reader fails instead of blocking
+  constexpr int kHow = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
+  core::FileDescriptor file(::open(path.c_str(), kHow, kFrameLogMode));
   if (!file.is_open()) return tl::unexpected(cannot_log(path, errno).error());
   return std::unique_ptr<FrameLog>(new FrameLog(path, std::move(file), start_ns));
 }
@@ -96,7 +119,7 @@ void FrameLog::write_all_that_comes() {
       ended = ending_;
       lines.swap(waiting_);
     }
-    if (error_ == 0) error_ = core::write_all(file_.get(), lines);
+    if (error_ == 0) error_ = write_patiently(file_.get(), lines);
   }
 }
 

@@ -27,7 +27,10 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
     for (const int child : nodes[i].children) {
       const auto place = static_cast<std::size_t>(child);
       if (has_parent[place]) {
-        throw GltfError(fmt::format("/nodes/{} has the child {}, which has more than one parent", i, child));
+        throw GltfError(fmt::format(
+            "/nodes/{} '{}' has the child {} '{}', which has more than one parent, and glTF allows one; give each "
+            "parent a node of its own with the same mesh",
+            i, nodes[i].name, child, nodes[place].name));
       }
       has_parent[place] = true;
     }

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "gltf_error.h"
+#include "gltf_uri.h"
 #include "images/image_decoder.h"
 
 namespace afm::scene {
@@ -49,9 +50,11 @@ void read_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
   texture.wrap_v = wrap_of(sampler.wrapT);
 }
 
+constexpr std::size_t kLongestNamed = 200;  // bytes of a file's name in a message
+
 // Image bytes before decoding.
 struct EncodedImage {
-  std::string path;
+  std::string path;  // "/images/0", and the file's name
   Bytes owned;
   std::span<const std::uint8_t> bytes;
 };
@@ -66,6 +69,7 @@ EncodedImage read_image(GltfModel& model, const GltfBuffers& buffers, std::uint3
     throw GltfMissingFile("it has neither a uri nor a bufferView");
   } else {
     image.owned = model.side_files.read(source.uri);
+    if (!is_data_uri(source.uri)) image.path += fmt::format(" '{}'", source.uri.substr(0, kLongestNamed));
     image.bytes = image.owned;
   }
   return image;
