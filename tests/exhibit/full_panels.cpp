@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <utility>
+
 #include "core/enumerators.h"
 #include "exhibit/friction/friction_panel.h"
 #include "exhibit/lesson/questionnaire.h"
@@ -18,6 +21,7 @@
 #include "scene/shared/shared_blocks.h"
 #include "servo/live_picture.h"
 #include "support/particles/particle_sets.h"
+#include "support/places.h"
 #include "support/samples/tapped_sample.h"
 
 namespace afm::exhibit {
@@ -187,6 +191,12 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
                             .strokes = scene::kMostStrokes,
                             .ink = {.covered_m2 = 2.744e-12, .flowed_s = 123.4, .speed_m_per_s = 1.234e-7}}},
                   phrases));
+  }
+  // under the title of every set of the program
+  for (const auto& file : std::filesystem::directory_iterator(support::source("assets/particles"))) {
+    render::DataPanel titled = panels.back();
+    titled.title = phrases.word(test::particle_set(file.path().stem().string()).title);
+    panels.push_back(std::move(titled));
   }
   return panels;
 }

@@ -250,6 +250,29 @@ TEST(DataPanel, HasLargerNumbersWithoutTheirSources) {
   EXPECT_GT(1e3F * kCapital * painter.paint(data, frame.panels.data.placement).least_em_m, kLeastMm);
 }
 
+// A German title was cut above a table of many rows, where it may not shrink as much.
+TEST(DataPanel, WritesALongTitleOnTwoLines) {
+  ExhibitFiles files;
+  files.assets_dir = support::source("assets");
+  files.wall = files.assets_dir + "/walls/powerwall.toml";
+  const auto stage = load_exhibit(files).value();
+  Painter painter(2.0 * 1280 / stage.screen.width_m(), stage.wall_scene.panel_millimetre_m());
+  const render::PanelPlacement place =
+      app::wall_subject(stage, 64, app::WallMotion::Tip).value().frames.back().panels.data.placement;
+  const auto painted = [&](int repeats) {
+    render::DataPanel panel;
+    for (int i = 0; i < repeats; ++i) panel.title += i == 0 ? "Punkte und Linien" : " aus Tinte auf Gold";
+    return painter.paint(panel, place);
+  };
+  const Painted one = painted(1), two = painted(4), endless = painted(40);
+  EXPECT_FALSE(one.cut || two.cut);
+  EXPECT_TRUE(two.inside());
+  EXPECT_GT(two.largest_em_m, 0.5F * one.largest_em_m);
+  EXPECT_GT(two.right_px, 0.5F * two.size.x);
+  EXPECT_TRUE(endless.cut) << "too small to be read";
+  EXPECT_TRUE(endless.inside());
+}
+
 INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));
 
 // The accents of the pseudo-locale and of German.

@@ -96,21 +96,23 @@ void Canvas::text(glm::vec2 position, TextStyle style, Color color, std::string_
   text_pass(position, style, scale, color, text, true);
 }
 
-void Canvas::fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm) {
-  if (text_width_mm(style, text) <= width_mm) {
-    this->text(position, style, color, text);
+void Canvas::fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm,
+                         float scale) {
+  if (text_width_mm(style, text, scale) <= width_mm) {
+    this->text(position, style, color, text, Align::Left, scale);
     return;
   }
-  const float room = width_mm - text_width_mm(style, kEllipsis);
-  while (!text.empty() && text_width_mm(style, text) > room) {
+  const float room = width_mm - text_width_mm(style, kEllipsis, scale);
+  while (!text.empty() && text_width_mm(style, text, scale) > room) {
     // removes whole UTF-8 characters: continuation bytes together with their first byte
     while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) {
       text.remove_suffix(1);
     }
     text.remove_suffix(1);
   }
-  this->text(position, style, color, text);
-  this->text(position + glm::vec2(text_width_mm(style, text), 0.0F), style, color, kEllipsis);
+  this->text(position, style, color, text, Align::Left, scale);
+  this->text(position + glm::vec2(text_width_mm(style, text, scale), 0.0F), style, color, kEllipsis, Align::Left,
+             scale);
 }
 
 void Canvas::shrunk_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm) {

@@ -74,7 +74,8 @@ class Canvas {
   float text_width_mm(TextStyle style, std::string_view text, float scale = 1.0F) const;
 
   // Draws left-aligned text, cut with an ellipsis if it would be wider than `width_mm`.
-  void fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);
+  void fitted_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm,
+                   float scale = 1.0F);
 
   // Draws left-aligned text, reduced if it would be wider, and vertically centred on its line.
   void shrunk_text(glm::vec2 position, TextStyle style, Color color, std::string_view text, float width_mm);

@@ -9,6 +9,7 @@
 
 #include "panels/panel_painting.h"
 #include "panels/plot_scale.h"
+#include "panels/title_text.h"
 
 namespace afm::render {
 namespace {
@@ -99,7 +100,7 @@ float paint_heading(Canvas& canvas, const ForcePanel& panel) {
   constexpr float kPlain = 146.0F, kApart = 30.0F, kLeastShrunk = 0.75F, kWhole = 162.0F, kLine = 56.0F;
   const float width = canvas.size_mm().x - 2.0F * kMargin, right = kMargin + width;
   const auto heading = [&](float room) {
-    canvas.shrunk_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, room);
+    paint_title(canvas, {kMargin, 24.0F}, panel.title, room);
     canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.stage, room);
   };
   if (panel.live.empty()) {

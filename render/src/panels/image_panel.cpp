@@ -6,6 +6,7 @@
 
 #include "panels/panel_painting.h"
 #include "panels/plot_scale.h"
+#include "panels/title_text.h"
 
 namespace afm::render {
 namespace {
@@ -239,7 +240,7 @@ void paint_profile(Canvas& canvas, const ProfilePlot& plot, const Square& at) {
 void paint(Canvas& canvas, const ImagePanel& panel) {
   canvas.panel_background();
   const float width = canvas.size_mm().x - 2.0F * kMargin;
-  canvas.shrunk_text({kMargin, 24.0F}, TextStyle::Title, palette::kInk, panel.title, width);
+  paint_title(canvas, {kMargin, 24.0F}, panel.title, width);
   canvas.shrunk_text({kMargin, 92.0F}, TextStyle::Body, palette::kYellow, panel.subtitle, width);
   const double step = tick_step(panel.side, 5);
   const float labels =

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "panels/panel_painting.h"
+#include "panels/title_text.h"
 
 namespace afm::render {
 namespace {
@@ -61,22 +62,6 @@ Plate paint_state(Canvas& canvas, const Banner& banner, float right, float top) 
   canvas.text(from + scale * glm::vec2(70.0F, 11.0F), TextStyle::Strong, palette::kInk, banner.state_word, Align::Left,
               scale);
   return {from, {right, top + height}};
-}
-
-struct Ink {
-  TextStyle style;
-  Color color;
-  float smallest = 0.55F;  // fraction of the style's size below which text is cut instead
-};
-
-// Draws left-aligned text, reduced if it would be wider than `room_mm`, so that no word is cut. Text that would be too
-// small to read ends in an ellipsis instead.
-void shrunk_text(Canvas& canvas, glm::vec2 position, const Ink& ink, std::string_view text, float room_mm,
-                 float scale = 1.0F) {
-  const float fit = std::min(1.0F, room_mm / std::max(canvas.text_width_mm(ink.style, text, scale), 1.0F));
-  if (fit < ink.smallest) return canvas.fitted_text(position, ink.style, ink.color, text, room_mm);
-  const float lift = 0.5F * scale * (1.0F - fit) * text_height_mm(ink.style);
-  canvas.text(position + glm::vec2(0.0F, lift), ink.style, ink.color, text, Align::Left, fit * scale);
 }
 
 bool is_words(const DataRow& row) { return row.value.empty() && row.source.empty(); }
@@ -321,7 +306,7 @@ void paint(Canvas& canvas, const DataPanel& panel) {
   const bool text = !panel.rows.empty() && std::all_of(panel.rows.begin(), panel.rows.end(), is_words);
   const float text_size = text ? text_scale(canvas, panel) : 1.0F;
   const float scale = text ? header_scale(text_size) : table_scale(canvas, panel);
-  shrunk_text(canvas, {kMargin, scale * 24.0F}, {TextStyle::Title, palette::kInk}, panel.title, width, scale);
+  paint_title(canvas, {kMargin, scale * 24.0F}, panel.title, width, scale);
   shrunk_text(canvas, {kMargin, scale * 92.0F}, {TextStyle::Body, palette::kYellow}, panel.subtitle, width, scale);
   const float top = scale * kHeader;
   canvas.line({kMargin, top}, {kMargin + width, top}, 2.0F, palette::kEdge);
