@@ -28,6 +28,7 @@ constexpr double kFacing = 0.26;           // cosine of 75 degrees between the l
 constexpr double kBelowFloorM = 0.5;       // origin of a room at the height of a seat
 constexpr double kMostDark = 0.2;          // share of a projector outside its mesh
 constexpr double kMostLost = 0.2;          // share of a picture that a keystone puts outside the projector
+constexpr double kRounding = 1e-12;        // error of a homography that was inverted twice
 constexpr std::string_view kCheckUnit = "lengths are in metres: check the unit";
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 
@@ -283,7 +284,12 @@ void doubt_keystone(const Output& output, std::vector<std::string>& doubts) {
     const glm::dmat3 px(size_px.x, 0, 0, 0, size_px.y, 0, 0, 0, 1);
     const glm::dmat3 scaled = glm::inverse(px) * keystone * px;
     if (lost_share(scaled) < kMostLost) {
-      const glm::dmat3 m = scaled / scaled[2][2];
+      glm::dmat3 m = scaled / scaled[2][2];
+      for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+          if (std::abs(m[column][row]) < kRounding) m[column][row] = 0.0;
+        }
+      }
       fix += fmt::format(
           "; if it was measured in pixels, write [{:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, {:.6g}, 1]",
           m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2]);

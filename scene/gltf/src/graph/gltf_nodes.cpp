@@ -29,7 +29,7 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
       if (has_parent[place]) {
         throw GltfError(fmt::format(
             "/nodes/{} '{}' has the child {} '{}', which has more than one parent, and glTF allows one; give each "
-            "parent a node of its own with the same mesh",
+            "parent a separate node with the same mesh",
             i, nodes[i].name, child, nodes[place].name));
       }
       has_parent[place] = true;
