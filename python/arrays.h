@@ -27,9 +27,9 @@ class GivenArray : public pybind11::array_t<double, pybind11::array::c_style | p
   static std::optional<GivenArray> of(pybind11::handle given) {
     const auto any = pybind11::array::ensure(given);
     if (!any || !has_numbers(any)) return std::nullopt;
-    pybind11::object numbers = ensure(any);
+    const pybind11::object numbers = ensure(any);
     if (!numbers) return std::nullopt;
-    return GivenArray(std::move(numbers));
+    return GivenArray(numbers);
   }
 
  private:

@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -228,6 +230,14 @@ core::Result<void> write_page(const AnalyseOptions& options, const Summary& summ
   return core::write_file((folder / kPage).string(), page.html(results, map_texts(options.fit), histograms));
 }
 
+core::Result<void> add_to_table(int table, const std::string& path, std::string_view text) {
+  if (const int error = core::write_all(table, text); error != 0) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot write {}: {}", path, core::system_error(error)));
+  }
+  return {};
+}
+
 // Logs the progress once a second.
 class Progress {
  public:
@@ -254,13 +264,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   const std::string path = (std::filesystem::path(options.out) / kTable).string();
   auto table = new_table(options.out, path);
   if (!table) return tl::unexpected(table.error());
-  const auto write = [&](const std::string& text) -> core::Result<void> {
-    if (const int error = core::write_all(table->get(), text); error != 0) {
-      return core::failure(core::ErrorCategory::Failed,
-                           fmt::format("cannot write {}: {}", path, core::system_error(error)));
-    }
-    return {};
-  };
+  const auto write = [&](const std::string& text) { return add_to_table(table->get(), path, text); };
   if (const auto written = write(kColumns); !written) return written;
   const core::OrderlyEnd by_itself;
   Summary summary;
@@ -284,14 +288,14 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
         if (!fitted) break;
         rows += row_of(cells, index, *fitted, options.fit);
         if (!pool.has_next() || rows.size() > kMostUnwritten) {
-          if (const auto written = write(rows); !written) return written;
-          rows.clear();
+          if (const auto written = write(std::exchange(rows, {})); !written) return written;
         }
         summary.add(*fitted);
         page.add(*fitted);
         maps.add(*fitted);
         progress.tell(whole_files, files.size(), index + 1, *count);
       }
+      if (const auto written = write(rows); !written) return written;
       if (index < *count) break;
       pool.forget(whole_files);
       auto pictured = maps.write(options.out, file, map_texts(options.fit));

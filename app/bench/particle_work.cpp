@@ -43,8 +43,9 @@ std::vector<glm::dvec2> scattered(std::uint32_t count, double pitch_m) {
   std::vector<glm::dvec2> places_m;
   places_m.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double x_m = (i % columns - 0.5 * (columns - 1)) * pitch_m + aside_m(random);
-    const double y_m = (i / columns - 0.5 * (columns - 1)) * pitch_m + aside_m(random);
+    const std::uint32_t column = i % columns, row = i / columns;
+    const double x_m = (column - 0.5 * (columns - 1)) * pitch_m + aside_m(random);
+    const double y_m = (row - 0.5 * (columns - 1)) * pitch_m + aside_m(random);
     places_m.emplace_back(x_m, y_m);
   }
   return places_m;

@@ -78,7 +78,8 @@ class HandedBytes {
   template <class T>
   T next() {
     T value{};
-    std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
+    const std::string_view bytes = take(sizeof(T));
+    std::memcpy(&value, bytes.data(), bytes.size());
     return value;
   }
   std::size_t count(std::size_t most) {

@@ -279,8 +279,7 @@ class Notes {
   void for_each_run(std::size_t from, std::size_t to, const Use& use) const {
     while (from < to) {
       const std::size_t end = from < broken_ ? std::min(broken_, to) : to;
-      const char* const last = notes_[end - 1].data() + notes_[end - 1].size();
-      use(std::string_view(notes_[from].data(), static_cast<std::size_t>(last - notes_[from].data())));
+      use(std::string_view(notes_[from].begin(), notes_[end - 1].end()));
       from = end;
     }
   }

@@ -265,7 +265,8 @@ double lost_share(const glm::dmat3& output_from_picture) {
   constexpr int kSteps = 24;
   int lost = 0;
   for (int i = 0; i < kSteps * kSteps; ++i) {
-    const glm::dvec2 place((i % kSteps + 0.5) / kSteps, (i / kSteps + 0.5) / kSteps);
+    const int column = i % kSteps, row = i / kSteps;
+    const glm::dvec2 place((column + 0.5) / kSteps, (row + 0.5) / kSteps);
     const glm::dvec3 image = output_from_picture * glm::dvec3(place, 1.0);
     const glm::dvec2 shown = glm::dvec2(image) / image.z;
     if (shown.x < 0.0 || shown.x > 1.0 || shown.y < 0.0 || shown.y > 1.0) ++lost;
