@@ -68,7 +68,7 @@ TEST(TappingCurve, LosesItsAveragesWhereTheFlowTurnsOnAndOn) {
   }
 }
 
-// A curve may take a minute, so that whoever waits has to see it go on.
+// A curve may take a minute: its progress is logged.
 TEST(TappingCurve, CountsEachHeightAndThoseOfItsIslands) {
   const TappedSample sample{.q = 100.0};
   for (const TapMethod method : {TapMethod::Averaged, TapMethod::Direct}) {
