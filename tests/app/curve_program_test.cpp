@@ -149,7 +149,7 @@ TEST(MaterialProgram, ListsMaterialsAndProbes) {
   }
 }
 
-TEST(MaterialProgram, TellsEveryNumberWithItsSourceAndTheLawWithItsReason) {
+TEST(MaterialProgram, PrintsEveryNumberWithItsSourceAndTheLawWithItsReason) {
   const support::ScratchFolder folder;
   const ProgramResult gold = run_touchafm("material gold --map " + folder.file("map.svg"));
   ASSERT_EQ(gold.exit_code, 0) << gold.err;

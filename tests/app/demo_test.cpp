@@ -72,7 +72,7 @@ TEST_F(Demo, MeetsTheEquationsWithinATenthOfAPercent) {
   }
 }
 
-TEST_F(Demo, TellsTheServosTimingAndTheFrames) {
+TEST_F(Demo, ReportsTheServosTimingAndTheFrames) {
   const nlohmann::json all = summary();
   EXPECT_EQ(all["servo"]["rate_hz"], 1000.0);
   EXPECT_GT(all["servo"]["ticks"].get<int>(), 3000);
@@ -142,7 +142,7 @@ TEST_F(Demo, TheSnapInReallyMovesTheHand) {
   EXPECT_LT(pull, -0.1);
 }
 
-TEST_F(Demo, TheReportStandsAlone) {
+TEST_F(Demo, TheReportNeedsNoOtherFile) {
   const std::string html = core::read_file(folder_->file("report.html")).value();
   EXPECT_THAT(html, HasSubstr("data:image/png;base64,iVBOR"));
   EXPECT_THAT(html, HasSubstr("<svg"));

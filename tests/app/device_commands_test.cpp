@@ -125,7 +125,7 @@ class Garbage {
   std::thread thread_;
 };
 
-TEST(DevicesCommand, TellsOfATrackerThatSendsGarbage) {
+TEST(DevicesCommand, ReportsATrackerThatSendsGarbage) {
   const Garbage tracker;
   const support::ScratchFolder folder;
   const std::string file = folder.write("tracker.toml", "[dtrack]\nport = " + tracker.port() +

@@ -39,7 +39,7 @@ Finding finding(const MachineFacts& facts, const std::string& check) {
   return found == all.end() ? Finding{} : *found;
 }
 
-TEST(Diagnosis, FindsNothingToMendOnAGoodMachine) {
+TEST(Diagnosis, FindsNothingToFixOnAGoodMachine) {
   const auto findings = diagnose(good_machine());
   EXPECT_GE(findings.size(), 10U);
   for (const Finding& f : findings) {
@@ -49,7 +49,7 @@ TEST(Diagnosis, FindsNothingToMendOnAGoodMachine) {
   }
 }
 
-TEST(Diagnosis, NamesTheLineThatMendsEachLack) {
+TEST(Diagnosis, NamesTheLineThatFixesEachLack) {
   struct Case {
     const char* check;
     Verdict verdict;

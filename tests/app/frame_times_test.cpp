@@ -15,7 +15,7 @@ TEST(FrameTimes, SaysNothingBeforeTheSecondFrame) {
   EXPECT_EQ(times.text(), "");
 }
 
-TEST(FrameTimes, TellsRateAndPercentiles) {
+TEST(FrameTimes, ReportRateAndPercentiles) {
   FrameTimes times;
   std::int64_t now = 0;
   times.shown(now);

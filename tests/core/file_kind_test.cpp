@@ -13,7 +13,7 @@ std::string name_of(std::string_view bytes) {
   return kind ? std::string(kind->name) : "";
 }
 
-TEST(FileKinds, AreToldByTheirBeginning) {
+TEST(FileKinds, AreRecognisedByTheirBeginning) {
   EXPECT_EQ(name_of("\x1F\x8B\x08"), "a gzip file");
   EXPECT_EQ(name_of("WSxM file copyright"), "a file of WSxM");
   EXPECT_EQ(name_of(std::string(257, '\0') + "ustar"), "a tar archive");
@@ -35,7 +35,7 @@ TEST(FileKinds, AreToldByTheirBeginning) {
 }
 
 // Its header is any text: the number of triangles must fill the file, of which only the beginning is read.
-TEST(FileKinds, ABinaryStlIsToldByItsSize) {
+TEST(FileKinds, ABinaryStlIsRecognisedByItsSize) {
   std::string header(84, 'x');
   header.replace(80, 4, std::string("\x02\x01\0\0", 4));
   EXPECT_EQ(file_kind(header, 84 + 50 * 258)->name, "an STL file");
@@ -43,7 +43,7 @@ TEST(FileKinds, ABinaryStlIsToldByItsSize) {
   EXPECT_FALSE(file_kind(header.substr(0, 83), 84 + 50 * 258));
 }
 
-TEST(FileKinds, HaveARemedyWhoeverReadsThem) {
+TEST(FileKinds, HaveARemedyForEveryReader) {
   EXPECT_EQ(remedy_of(file_kind("Rar!\x1A\x07", 6)->role), "unpack it first");
   EXPECT_EQ(remedy_of(file_kind("\xD0\xCF\x11\xE0\xA1\xB1\x1A\xE1", 8)->role), "save its table as .csv");
   EXPECT_EQ(remedy_of(file_kind("%PDF-1.7", 8)->role), "");

@@ -89,7 +89,7 @@ TEST_F(WholeFile, DevicesAndPipesStayWhatTheyAre) {
   EXPECT_TRUE(fs::is_fifo(path("pipe")));
 }
 
-TEST_F(WholeFile, APipeWithoutAReaderIsNotWaitedForForEver) {
+TEST_F(WholeFile, APipeWithoutAReaderIsNotWaitedForIndefinitely) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   const auto begin = std::chrono::steady_clock::now();
   testing::internal::CaptureStderr();

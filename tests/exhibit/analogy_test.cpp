@@ -62,7 +62,7 @@ TEST_F(AnalogyTest, TheSpringReachesFromTheMagnetToTheHand) {
   }
 }
 
-TEST_F(AnalogyTest, StandsInsteadOfTheInstrumentWithItsPartsNamed) {
+TEST_F(AnalogyTest, ReplacesTheInstrumentWithItsPartsNamed) {
   const render::FrameState state = frame({.z_m = 5e-9});
   const auto visible = [&](const std::string& name) {
     return state.visible[scene_.scene().find_node(name).value()] != 0;

@@ -141,7 +141,7 @@ glm::dvec3 lab(const glm::dvec3& c) {
   return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
 
-TEST(ForcePanel, CurvesAreToldApartWithoutRedGreenOrBlueVision) {
+TEST(ForcePanel, CurvesDifferWithoutRedGreenOrBlueVision) {
   constexpr double kClearlyDifferent = 20.0;  // 2.3 is just noticeable side by side
   constexpr double kPapersThree = 40.0;       // without red or green vision
   for (const auto& matrix : kDichromats) {

@@ -28,7 +28,7 @@ curves::LiveParameters mica() {
           .value());
 }
 
-TEST(ParameterPanel, TellsWhatFollowsFromTheParameters) {
+TEST(ParameterPanel, ShowsWhatFollowsFromTheParameters) {
   const auto panel = parameter_panel(mica(), "Mica", ChangeState::AsLoaded, test::english());
   EXPECT_THAT(panel.notes, Contains(HasSubstr("Snap-in 240 pN at 2.4 nm")));
   EXPECT_THAT(panel.notes, Contains(HasSubstr("Pull-off 1.4 nN at 14 nm")));
@@ -65,7 +65,7 @@ TEST(ParameterPanel, EveryTargetIsHitInItsMiddleAndNoTwoOverlap) {
   EXPECT_FALSE(render::control_at(panel, kSize, {20.0, 20.0}));
 }
 
-TEST(ParameterPanel, ThePredictionStandsBehindTheFeltCurvesWithAxesThatHoldIt) {
+TEST(ParameterPanel, ThePredictionIsBehindTheFeltCurvesWithAxesThatHoldIt) {
   render::ForcePanel panel;
   panel.curves.resize(1);
   add_prediction(mica(), test::english(), panel);

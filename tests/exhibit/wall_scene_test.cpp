@@ -59,7 +59,7 @@ TEST_F(WallSceneTest, TheContactPointLiesInTheWallNoHigherThanTheEyesInItsMiddle
   EXPECT_LT(contact().y, screen_.lower_left.y + screen_.height_m() * 2.0 / 3.0);
 }
 
-TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
+TEST_F(WallSceneTest, TheApexIsAtItsHeightHoweverTheLeverBends) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double z_joc = physics::approach_retract_events(materials_.materials[material].contact).z_joc.si;
     const double scale = scene_.drawn_scale(material).sample_m_per_m;
@@ -74,7 +74,7 @@ TEST_F(WallSceneTest, TheApexStandsAtItsHeightHoweverTheLeverBends) {
   }
 }
 
-TEST_F(WallSceneTest, TheApexStandsOverTheDrawnSurfaceWhereverTheTipIs) {
+TEST_F(WallSceneTest, TheApexIsOverTheDrawnSurfaceWhereverTheTipIs) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double scale = scene_.drawn_scale(material).sample_m_per_m;
     const scene::SharedHeightField& field = surface_of(material);

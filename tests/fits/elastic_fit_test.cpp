@@ -98,7 +98,7 @@ bool has(const ElasticFit& fit, Doubt doubt) {
 }
 
 // From a start 0.3 um off, without noise.
-TEST(ElasticFit, FindsTheModulusOfItsOwnCurve) {
+TEST(ElasticFit, FindsTheModulusOfACurveOfTheSameLaw) {
   for (const ShapeRow& row : kShapes) {
     if (row.is_adhesive) continue;
     for (const double reduced_pa : {400.0, 4e3, 1e5}) {
@@ -257,7 +257,7 @@ TEST(ElasticFit, ThatLeavesTheCurveIsDoubtful) {
 }
 
 // Whatever the noise, and with a tenth of the points before contact.
-TEST(ElasticFit, OfItsOwnShapeDoesNotLeaveTheCurve) {
+TEST(ElasticFit, OfTheSameShapeDoesNotLeaveTheCurve) {
   const Indenter tip = indenter(Shape::Paraboloid);
   for (const double reduced_pa : {4e3, 120e3}) {
     for (const Noise noise : {Noise::White, Noise::LowPass, Noise::Waves, Noise::Steps}) {

@@ -24,7 +24,7 @@ double hold(MotorThermalModel& motors, double wanted_n, double seconds) {
   return force_n;
 }
 
-TEST(MotorThermalModel, EndsAtTheRatingWhateverIsHeldForEver) {
+TEST(MotorThermalModel, EndsAtTheRatingWhateverIsHeldIndefinitely) {
   for (const double wanted_n : {1.0, 1.5, 2.0}) {
     MotorThermalModel motors(kRatingN, kCapN);
     const double force_n = hold(motors, wanted_n, 600.0);
@@ -34,7 +34,7 @@ TEST(MotorThermalModel, EndsAtTheRatingWhateverIsHeldForEver) {
   }
 }
 
-TEST(MotorThermalModel, LeavesAForceThatTheMotorsStandForEverAsItIs) {
+TEST(MotorThermalModel, LeavesAForceThatTheMotorsCanHoldIndefinitely) {
   MotorThermalModel motors(kRatingN, kCapN);
   const double wanted_n = 0.88 * kRatingN;
   EXPECT_EQ(hold(motors, wanted_n, 600.0), wanted_n);

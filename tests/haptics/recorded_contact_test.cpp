@@ -108,7 +108,7 @@ TEST_P(RecordedContact, GivesAHandNoMoreThanItStores) {
   EXPECT_LT(worst_j, 0.1 * PassivityObserver::kLimitJ);
 }
 
-TEST_P(RecordedContact, StaysBelowTheStiffnessThatAHandStands) {
+TEST_P(RecordedContact, StaysBelowTheStiffnessThatAHandTolerates) {
   const Felt sample = felt(curve());
   ContactModel& model = *sample.model;
   const double bottom_m = model.scaling().hand_height_m(sample.tables->pressed_to.si);

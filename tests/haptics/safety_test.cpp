@@ -323,7 +323,7 @@ TEST_F(Governor, StopsTheHandAtTheEndOfTheWorkspaceAndLetsGoOutside) {
   EXPECT_EQ(governor_.fault(), FaultCode::OutOfWorkspace);
 }
 
-TEST_F(Governor, TripsEarlierForADeviceThatStandsLessSpeed) {
+TEST_F(Governor, TripsEarlierForADeviceThatToleratesLessSpeed) {
   afm::haptics::DeviceSpec device = omni_like("slow");
   device.max_speed_m_per_s = 0.5;
   EXPECT_DOUBLE_EQ(safety_limits(device, kPeriodNs, kReleaseHeightM, false).trip_speed_m_per_s, 0.4);

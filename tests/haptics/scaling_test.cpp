@@ -264,7 +264,7 @@ TEST_F(PapersMaterials, CompressedAreAllFeltWithoutBeingTooStiff) {
   }
 }
 
-TEST_F(PapersMaterials, ShareAScaleThatTheSoftestDeviceStands) {
+TEST_F(PapersMaterials, ShareAScaleThatTheSoftestDeviceTolerates) {
   DeviceSpec soft = omni_;
   soft.max_stiffness_n_per_m = 5.0;
   const CommonScale scale = *Scaling::common_scale(tables_, soft);

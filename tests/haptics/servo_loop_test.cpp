@@ -63,7 +63,7 @@ TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
   EXPECT_GT((released + 60)->hand_height_m, 0.057);
 }
 
-TEST(ServoLoop, TellsItsLimitsHeatAndEnergy) {
+TEST(ServoLoop, ReportsItsLimitsHeatAndEnergy) {
   ServoBench bench;
   bench.hold_attached(kMica);
   const TipState state = bench.state();

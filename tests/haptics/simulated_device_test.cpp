@@ -97,7 +97,7 @@ TEST(SimulatedHand, StopsAtTheEndsOfItsWorkspace) {
   EXPECT_EQ(device.velocity_m_per_s().y, 0.0);
 }
 
-TEST(FlawedHand, TellsItsPlaceInStepsAndLate) {
+TEST(FlawedHand, ReportsItsPlaceInStepsAndLate) {
   constexpr double kQuantum = 55e-6;
   constexpr std::int64_t kDelayNs = 5 * kMs;
   SimulatedDevice exact(glm::dvec3(0.0)), flawed(glm::dvec3(0.0), {}, {.quantum_m = kQuantum, .delay_ns = kDelayNs});

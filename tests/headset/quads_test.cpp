@@ -134,7 +134,7 @@ TEST_F(HeadsetQuads, HoldTheTextureOfEachLabel) {
   expect_texture_of(quads()[4], frame_.panels.banner.placement);
 }
 
-TEST_F(HeadsetQuads, StandInTheRoomHoweverTheWearerStandsInIt) {
+TEST_F(HeadsetQuads, StayInTheRoomHoweverTheWearerMoves) {
   room_from_floor_ = {.position_m = {0.3, -1.6, 2.0},
                       .room_from_head = glm::angleAxis(glm::radians(20.0), glm::dvec3(0.0, 1.0, 0.0))};
   script().local_floor = false;

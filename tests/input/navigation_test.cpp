@@ -178,7 +178,7 @@ TEST(Navigation, GoesHome) {
   EXPECT_EQ(navigation.room_from_scene(), glm::dmat4(1.0));
 }
 
-TEST(Navigation, StandsWhileTheTipIsInContactAndGoesOnWithoutAJump) {
+TEST(Navigation, StopsWhileTheTipIsInContactAndGoesOnWithoutAJump) {
   Navigation navigation(kPivot);
   WandState wand = pointed_wand(bit(WandButton::Grab));
   navigation.update(wand, kFrameS, false);
@@ -199,7 +199,7 @@ TEST(Navigation, StandsWhileTheTipIsInContactAndGoesOnWithoutAJump) {
   EXPECT_NEAR(moved(navigation, kPivot).x - before[3].x, 0.1, kExactM);
 }
 
-TEST(Navigation, StandsWhenTheWandIsUnpluggedOrLost) {
+TEST(Navigation, StopsWhenTheWandIsUnpluggedOrLost) {
   Navigation navigation(kPivot);
   WandState wand = pointed_wand(bit(WandButton::Grab));
   navigation.update(wand, kFrameS, false);

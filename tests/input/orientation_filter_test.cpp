@@ -61,7 +61,7 @@ TEST(OrientationFilter, DoesNotTakeASwingForGravity) {
   EXPECT_NEAR(std::abs(angle_between(filter.level_from_wand(), pitch(0.0))), 0.0, 1e-9);
 }
 
-TEST(OrientationFilter, LearnsTheBiasWhileTheWandLiesStillSoThatTheHeadingStands) {
+TEST(OrientationFilter, LearnsTheBiasWhileTheWandLiesStillSoThatTheHeadingStays) {
   OrientationFilter filter;
   const glm::dvec3 bias(0.01, -0.05, 0.02);
   for (int i = 0; i < 400; ++i) filter.add(reading(pitch(0.0), bias), kStepS);

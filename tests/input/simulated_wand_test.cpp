@@ -35,7 +35,7 @@ TEST(SimulatedWand, HoversOnlyTheSwatchThatItAimsAtWhileItsHandTrembles) {
   }
 }
 
-TEST(SimulatedWand, HoldsTheButtonAsLongAsItWasTold) {
+TEST(SimulatedWand, HoldsTheButtonAsLongAsRequested) {
   SimulatedWand wand({0, 1, 2});
   wand.press(0.2, kSecond);
   EXPECT_FALSE(wand.state(kSecond - 1).pressed(WandButton::Select));

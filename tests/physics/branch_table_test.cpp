@@ -26,7 +26,7 @@ BranchTable::Piece piece_of(double start, double last_u, Force force, Slope slop
   return piece;
 }
 
-TEST(BranchTable, IsZeroUnlessTold) {
+TEST(BranchTable, IsZeroUnlessFilled) {
   EXPECT_EQ(BranchTable().force(3_nm), 0_nN);
   EXPECT_EQ(BranchTable().force(-1_m), 0_nN);
 }

@@ -49,14 +49,14 @@ TEST(BeamShape, IsClampedAtTheBaseAndOneAtTheEnd) {
   EXPECT_EQ(beam_slope(1.0), 1.5);
 }
 
-TEST(BeamShape, StandsStillBeforeTheClampAndIsStraightBeyondTheLoad) {
+TEST(BeamShape, IsFlatBeforeTheClampAndStraightBeyondTheLoad) {
   EXPECT_EQ(beam_deflection(-0.3), 0.0);
   EXPECT_EQ(beam_slope(-0.3), 0.0);
   EXPECT_DOUBLE_EQ(beam_deflection(1.4), 1.0 + 1.5 * 0.4);
   EXPECT_EQ(beam_slope(1.4), 1.5);
 }
 
-TEST(BeamShape, HasTheSlopeOfItsOwnDifferences) {
+TEST(BeamShape, HasTheSlopeOfItsDifferences) {
   constexpr double kStep = 1e-6;
   for (double xi = -0.2; xi < 1.5; xi += 0.01) {
     const double difference = (beam_deflection(xi + kStep) - beam_deflection(xi - kStep)) / (2.0 * kStep);

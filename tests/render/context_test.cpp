@@ -78,7 +78,7 @@ class TwoDevices : public ::testing::Test {
   support::ScratchFolder folder_;
 };
 
-TEST_F(TwoDevices, AreToldApartByNumber) {
+TEST_F(TwoDevices, DifferByNumber) {
   const auto devices = render::list_devices();
   ASSERT_TRUE(devices) << devices.error().message;
   ASSERT_EQ(devices->size(), 2U);

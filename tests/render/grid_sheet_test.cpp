@@ -55,7 +55,7 @@ TEST(GridSheet, RepeatsTheOutermostCellsAroundAGrid) {
             texel(sheet, place.from + right + glm::vec2(0.0F, 5.0F)));
 }
 
-TEST(GridSheet, TellsAColourThatHasChanged) {
+TEST(GridSheet, ReportsAColourThatHasChanged) {
   GridSheet sheet;
   ColorGrid grid = numbered(40, 30, 7);
   const std::uint32_t before = sheet.add(grid).digest;

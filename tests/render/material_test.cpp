@@ -219,7 +219,7 @@ TEST_F(Materials, DrawPointsWithTheirSizeInTheRoom) {
   EXPECT_LE(pixels_of_one(2.4), 18.0 * 18.0);
 }
 
-TEST_F(Materials, TakeLightFromWhereItStands) {
+TEST_F(Materials, TakeLightFromItsPlace) {
   material_.unlit = false;
   material_.metallic = 0.0F;
   material_.base_color = glm::vec4(0.1F, 0.1F, 0.1F, 1.0F);

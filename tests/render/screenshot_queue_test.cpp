@@ -76,7 +76,7 @@ TEST_F(PictureSaving, FollowsModesSizesAndPlacesOnTheScreen) {
 }
 
 // The disk is a pipe without a reader, so that any write blocks.
-TEST_F(PictureSaving, NoFrameWaitsForADiskThatStandsStill) {
+TEST_F(PictureSaving, NoFrameWaitsForADiskThatHangs) {
   const std::string pipe = file(0);
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::size_t begun = 0;

@@ -77,7 +77,7 @@ Scene single_triangle(const glm::dmat4& root_from_child) {
   return scene;
 }
 
-TEST(HeightField, TakesWhatStandsBelowInTheFrameOfTheRoot) {
+TEST(HeightField, TakesWhatIsBelowInTheFrameOfTheRoot) {
   glm::dmat4 raised(1.0);
   raised[3] = glm::dvec4(0.0, 0.0, 5e-9, 1.0);
   const auto field = height_field_below(single_triangle(raised), 0);

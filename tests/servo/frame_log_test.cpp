@@ -79,7 +79,7 @@ TEST(FrameLog, SaysAtTheEndThatTheDiskWasFull) {
   EXPECT_THAT(done.error().message, HasSubstr("No space left on device"));
 }
 
-TEST(FrameLog, WaitsForNoReaderOfAPipeForEver) {
+TEST(FrameLog, WaitsForNoReaderOfAPipeIndefinitely) {
   const support::ScratchFolder folder;
   const std::string path = folder.file("pipe");
   ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);

@@ -19,7 +19,7 @@ TEST(HapticChoice, TakesTheWordOfEveryDevice) {
   }
 }
 
-TEST(HapticChoice, TakesWhatIsNoDeviceOfItsOwn) {
+TEST(HapticChoice, TakesWhatIsNoSeparateDevice) {
   EXPECT_EQ(parse_haptic_choice("auto")->device, nullptr);
   const auto mouse = parse_haptic_choice("mouse");
   EXPECT_EQ(mouse->device, &haptics::simulated_kind());

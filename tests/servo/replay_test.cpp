@@ -56,7 +56,7 @@ TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {
   EXPECT_FALSE(replay(session)->identical());
 }
 
-TEST(Replay, ComparesThePartThatItIsTold) {
+TEST(Replay, ComparesTheRequestedPart) {
   Recording recording;
   recording.choose(test::kGold);
   recording.cycle();
@@ -176,7 +176,7 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   for (const RecordedSession& session : recording.sessions) expect_same(session);
 }
 
-TEST(Replay, GivesAForceThatTheWallTookAwayAgain) {
+TEST(Replay, ReproducesAForceThatTheWallRemoved) {
   Recording recording;
   recording.choose(test::kGold);
   recording.cycle();

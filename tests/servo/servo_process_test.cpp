@@ -231,7 +231,7 @@ TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
   }));
 }
 
-TEST(ServoProcess, GivesForceOnlyWhileTurnOnIsHeldWhereItIsToldSo) {
+TEST(ServoProcess, GivesForceOnlyWhileTurnOnIsHeldWhereRequested) {
   EXPECT_TRUE(eventually([&] {
     SharedSegment segment = create_segment();
     RendererSide side = segment.renderer_side();

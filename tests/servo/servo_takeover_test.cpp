@@ -185,7 +185,7 @@ TEST_F(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   EXPECT_NEAR(z_joc_m, 14.0e-9, 0.1e-9);
 }
 
-TEST_F(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
+TEST_F(ServoTakeover, AsksAServoOfAnotherSceneToLeaveAndStartsANewOne) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
   core::Result<std::unique_ptr<ServoClient>> link = start(kLong_s, kScene + 1);
@@ -201,7 +201,7 @@ TEST_F(ServoTakeover, TellsAServoOfAnotherSceneToLeaveAndStartsItsOwn) {
 class ServoTakeoverOfAnother : public ServoTakeover, public testing::WithParamInterface<OtherWish> {};
 
 // A servo with different options never holds a hand, not even one without a dead-man switch.
-TEST_P(ServoTakeoverOfAnother, TellsItToLeaveAndStartsItsOwn) {
+TEST_P(ServoTakeoverOfAnother, AsksItToLeaveAndStartsANewOne) {
   Predecessor predecessor(kLong_s);
   predecessor.kill();
   ServoChoice choice{.settings = {.linger_s = kLong_s}};
@@ -285,13 +285,13 @@ TEST_F(ServoTakeover, IsNotHeldUpByOneWhoDoesNotAnswer) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(12));
 }
 
-TEST_F(ServoTakeover, IsNotWaitedForByAServoThatWasNotToldTo) {
+TEST_F(ServoTakeover, IsNotWaitedForByAServoThatWasNotAskedTo) {
   Predecessor predecessor(0.0);
   predecessor.kill();
   EXPECT_TRUE(eventually([&] { return predecessor.servo_exit_code() == 1; }));
 }
 
-TEST_F(ServoTakeover, IsWaitedForAsLongAsItWasTold) {
+TEST_F(ServoTakeover, IsWaitedForAsLongAsRequested) {
   Predecessor predecessor(0.3);
   const auto killed = std::chrono::steady_clock::now();
   predecessor.kill();

@@ -152,7 +152,7 @@ class ServoWatchdog : public testing::Test {
   pid_t servo_pid = -1, watchdog = -1;
 };
 
-TEST_F(ServoWatchdog, TellsTheDeviceToLetGoAndEndsAServoThatIsStopped) {
+TEST_F(ServoWatchdog, MakesTheDeviceLetGoAndEndsAServoThatIsStopped) {
   support::expect_within(kReleaseBound, [&] { return timed_signal(servo_pid, SIGSTOP, [&] { return released(); }); });
   ASSERT_TRUE(eventually([&] { return servo_gone(); }));
   support::expect_within(kKillBound, [&] { return timed_signal(servo_pid, SIGSTOP, [&] { return servo_gone(); }); });
@@ -162,7 +162,7 @@ TEST_F(ServoWatchdog, TellsTheDeviceToLetGoAndEndsAServoThatIsStopped) {
   EXPECT_THAT(errors.text(), HasSubstr("watchdog: the servo stopped responding"));
 }
 
-TEST_F(ServoWatchdog, TellsTheDeviceToLetGoWhenTheServoIsKilled) {
+TEST_F(ServoWatchdog, MakesTheDeviceLetGoWhenTheServoIsKilled) {
   support::expect_within(kReleaseBound, [&] { return timed_signal(servo_pid, SIGKILL, [&] { return released(); }); });
   EXPECT_TRUE(watchdog_gone());
   EXPECT_EQ(held_n(), 0.0);

@@ -353,7 +353,7 @@ TEST_F(StudyReport, MeasuresWhatWasLearned) {
   EXPECT_LT(learning[0].change.p, 0.01);
 }
 
-TEST_F(StudyReport, StandsBesideThePapersTable) {
+TEST_F(StudyReport, ComparesWithThePapersTable) {
   add_class(4);
   const auto all = files();
   EXPECT_THAT(all.at("study.md"),

@@ -141,7 +141,7 @@ TEST(FitBatch, HasTheSameBytesWithOneThreadAndWithEight) {
             core::read_file(folder.file("eight/report.html")).value());
 }
 
-TEST(FitBatch, TakesAsManyThreadsAsItIsTold) {
+TEST(FitBatch, TakesAsManyThreadsAsRequested) {
   const support::ScratchFolder folder;
   std::string files;
   for (const std::string& file : files_in(folder)) files += " " + file;

@@ -219,7 +219,7 @@ TEST_F(ClusterFailures, TheDoctorNamesTheNodeThatDoesNotAnswerAndHowToStartIt) {
   EXPECT_THAT(both.out, ContainsRegex("node right +good +draws in"));
 }
 
-TEST_F(ClusterFailures, TheBenchmarkStartsNodesOfItsOwn) {
+TEST_F(ClusterFailures, TheBenchmarkStartsItsOwnNodes) {
   const support::ProgramResult measured =
       support::run_program(support::touchafm() + " bench cluster --nodes 2 --frames 60 --json --domain " + domain());
   ASSERT_EQ(measured.exit_code, 0) << measured.err;

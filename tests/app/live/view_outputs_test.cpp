@@ -88,7 +88,7 @@ TEST_F(ViewOutputsTest, EachTileKeepsItsOwnScreen) {
 }
 
 // Wayland names a monitor by its make.
-TEST_F(ViewOutputsTest, TwoMonitorsOfOneNameAreToldApartByTheirNumbers) {
+TEST_F(ViewOutputsTest, TwoMonitorsOfOneNameDifferByTheirNumbers) {
   for (render::Monitor& monitor : monitors_) monitor.name = "ACME projector";
   wall_.outputs = {output_on("a", "1"), output_on("b", "2")};
   const auto outputs = plan().value();

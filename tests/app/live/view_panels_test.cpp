@@ -93,7 +93,7 @@ class PanelsOfTheView : public ::testing::Test {
   std::optional<ViewPanels> panels_;
 };
 
-TEST_F(PanelsOfTheView, FollowWhatAnotherMachineHasTold) {
+TEST_F(PanelsOfTheView, FollowWhatAnotherMachineHasSent) {
   const cluster::ShownPanels panels;
   for_each_field([&](const char* name, std::uint32_t) { expect_followed(name, 1); }, panels);
   for (std::uint32_t flag = 1; flag <= cluster::ShownPanels::kAllFlags; flag *= 2) {

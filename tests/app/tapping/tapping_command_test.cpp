@@ -74,7 +74,7 @@ TEST(TappingCommand, PrintsEveryStateAtAHeight) {
 }
 
 // A soft lever over a stiff contact that adheres.
-TEST(TappingCommand, CompletesTheStatesByDirectIntegrationUnlessToldToAverage) {
+TEST(TappingCommand, CompletesTheStatesByDirectIntegrationUnlessAskedToAverage) {
   curves::ContactOptions contact = tapped();
   contact.values["spring-constant"] = "0.858385N/m";
   contact.values["tip-radius"] = "48.3545nm";

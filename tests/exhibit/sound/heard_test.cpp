@@ -295,13 +295,13 @@ TEST_F(NarratorTest, SaysSlipsOnRequestAlone) {
   EXPECT_THAT(spoken().at(0), HasSubstr("The tip slips. 0.31 nanonewtons"));
 }
 
-TEST_F(NarratorTest, TellsOfAServoThatHasGoneSilentOnce) {
+TEST_F(NarratorTest, ReportsAServoThatHasGoneSilentOnce) {
   tip_.fault = scene::FaultCode::ServoSilent;
   for (int frame = 0; frame < 3; ++frame) narrator_.follow(tip_, step(Hint::PressToGoOn, "Let go"));
   EXPECT_THAT(signals_, ElementsAre(HeardEvent::Fault));
 }
 
-TEST_F(NarratorTest, TellsOfEachLineOfAnImage) {
+TEST_F(NarratorTest, ReportsEachLineOfAnImage) {
   for (const std::uint32_t lines : {0U, 0U, 1U, 1U, 2U}) {
     narrator_.follow(tip_, {.hint = Hint::ChooseSample, .guidance = "", .scan_lines = lines});
   }

@@ -65,7 +65,7 @@ TEST(Pitch, OfThePapersMaterialsFollowsTheirTables) {
   }
 }
 
-TEST(Pitch, TellsPullFromPushBySideAndEdge) {
+TEST(Pitch, DistinguishesPullFromPushBySideAndEdge) {
   const Ear ear = ear_of_mica();
   EXPECT_LT(ear.tone(-kPullOff).side, -0.7);
   EXPECT_GT(ear.tone(kPullOff).side, 0.7);

@@ -318,7 +318,7 @@ TEST(DhdDevice, SaysOnceThatItsMotorsAreSaturatedAndGoesOn) {
 }
 
 // The thread that calls the library is caught in it: the servo, the supervisor and the device each let go.
-TEST(DhdDevice, IsNotHealthyWhileItsThreadStandsStillAndItsForceIsSwitchedOff) {
+TEST(DhdDevice, IsNotHealthyWhileItsThreadHangsAndItsForceIsSwitchedOff) {
   DhdBench bench;
   bench.hold_attached();
   for (int ms = 0; ms < 11; ++ms) {

@@ -78,7 +78,7 @@ TEST(DhdPlaces, OfNoNumberAndLeapsAreComparedWithNothing) {
   }
 }
 
-TEST(DhdPlaces, LoseTheirForceWhenTheSensorStandsStill) {
+TEST(DhdPlaces, LoseTheirForceWhenTheSensorFreezes) {
   DhdBench bench;
   bench.hold_attached();
   mock_dhd_hold_still();

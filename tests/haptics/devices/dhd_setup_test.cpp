@@ -66,7 +66,7 @@ TEST(DhdLibrary, DoesWithoutALargestForceThatAnOldOneHasNot) {
   EXPECT_NE(mock_functions().set_max_force, nullptr);
 }
 
-TEST(DhdSetup, TellsTheProfileOfItsModelAndStartsNothing) {
+TEST(DhdSetup, ReportsTheProfileOfItsModelAndStartsNothing) {
   mock_dhd_reset();
   const auto spec = DhdDevice::query(mock_functions(), "");
   ASSERT_TRUE(spec) << spec.error().message;

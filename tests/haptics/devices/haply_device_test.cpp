@@ -160,7 +160,7 @@ class PullingHaply : public testing::Test {
 
 class HaplyReleases : public PullingHaply, public testing::WithParamInterface<HaplyService::Manner> {};
 
-TEST_P(HaplyReleases, WhenTheServiceTellsNoPlaceThoughTheServoGoesOn) {
+TEST_P(HaplyReleases, WhenTheServiceSendsNoPlaceThoughTheServoGoesOn) {
   // twice the sum of the device's 20 ms and its thread's time slice; one of three runs must be in time, because a
   // virtual machine may stall longer
   constexpr auto kBound = std::chrono::milliseconds(60);

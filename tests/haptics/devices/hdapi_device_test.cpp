@@ -40,7 +40,7 @@ std::vector<std::string> calls() {
   return all;
 }
 
-TEST(HdapiDevice, TellsItsLimitsInSi) {
+TEST(HdapiDevice, ReportsItsLimitsInSi) {
   mock_hd_reset();
   const auto spec = HdapiDevice::query(mock_functions(), "");
   ASSERT_TRUE(spec) << spec.error().message;
@@ -108,7 +108,7 @@ TEST(HdapiDevice, DividesTwoStepsOfTheServoThatFallBetweenTwoCallbacks) {
   EXPECT_EQ(bench.health(), HdapiHealth::Ready);
 }
 
-TEST(HdapiDevice, TellsHowHotTheMotorsAreAndTheForceGivesWay) {
+TEST(HdapiDevice, ReportsHowHotTheMotorsAreAndTheForceGivesWay) {
   HdapiBench bench;
   bench.hold_attached();
   const double cold_n = bench.force_n;
@@ -135,7 +135,7 @@ TEST(HdapiDevice, IsNotDrivenBySlowerTicksThanItsForcesLast) {
   EXPECT_TRUE(ServoLoop::create(bench.segment, *bench.device, {.rate_hz = 400.0}));
 }
 
-TEST(HdapiDevice, SeesAHotMotorBehindASensorThatTellsNoNumber) {
+TEST(HdapiDevice, SeesAHotMotorBehindASensorThatSendsNoNumber) {
   HdapiBench bench;
   bench.hold_attached();
   mock_hd_break_first_sensor();

@@ -9,7 +9,7 @@ namespace hdapi_places_test {
 using afm::scene::FaultCode;
 using afm::test::HdapiBench;
 
-TEST(HdapiPlaces, LosesItsForceWhenItsSensorStandsStill) {
+TEST(HdapiPlaces, LosesItsForceWhenItsSensorFreezes) {
   HdapiBench bench;
   bench.hold_attached();
   mock_hd_hold_still();

@@ -99,7 +99,7 @@ TEST(FeltCarry, ASphereIsPickedUpCarriedHighAndReleasedOnAPad) {
   EXPECT_EQ(hand.pose(0).y_m, 0.0);
 }
 
-TEST(FeltCarry, AForceThatIsTakenAwayLeavesTheSphereWhereItWasLifted) {
+TEST(FeltCarry, AForceThatIsRemovedLeavesTheSphereWhereItWasLifted) {
   const auto set = std::make_unique<const SharedParticles>(test::particles_to_lift({{0.0, 0.0}, {120e-9, 0.0}}));
   Hand hand(*set);
   hand.pick_up();

@@ -325,7 +325,7 @@ TEST(FeltFriction, AllocatesNothingInATick) {
   }
 }
 
-TEST(FeltFriction, ReportsItsSlipsAndForcesAndStaysWithinTheLedger) {
+TEST(FeltFriction, ReportsItsSlipsAndForcesAndStaysPassive) {
   auto scene = test::paper_model();
   scene.materials[test::kMica] = mica(FrictionLaw::Lattice);
   test::ServoBench bench(scene);

@@ -248,7 +248,7 @@ TEST(Scanner, DoesNotAllocateAPixel) {
   ASSERT_TRUE(scanner.next_line(line));
 }
 
-TEST(Scanner, EndsAFrameWhereItIsToldTo) {
+TEST(Scanner, EndsAFrameWhereRequested) {
   Scanner scanner(ScanArea(), ScanSettings(), bumps);
   std::vector<std::size_t> rows;
   const ScanImage image = scan_frame(scanner, [&](const ScanLine& line) {

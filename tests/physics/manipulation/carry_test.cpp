@@ -168,7 +168,7 @@ TEST(Carry, WhatStaysBehindIsAnObstacleThatDoesNotMove) {
   EXPECT_NEAR(tick.stored.si, 0.0, 1e-28);
 }
 
-TEST(Carry, AHandThatIsTakenAwayLeavesTheSphereWhereItWasLifted) {
+TEST(Carry, AHandThatLetsGoLeavesTheSphereWhereItWasLifted) {
   PushedParticles particles(setup_of(small_gold()), {{0, {Length(0.0), Length(0.0)}}}, base_at(-kAside, 0.0, kOver));
   pick_up(particles, 1000.0);
   // the tip has drawn it below itself before it rose
