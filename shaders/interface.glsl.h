@@ -36,7 +36,7 @@
 #define AFM_FEATURE_UNLIT 0x08000000u
 #define AFM_FEATURE_MASK 0x10000000u    // alphaMode MASK
 #define AFM_FEATURE_BLEND 0x20000000u   // alphaMode BLEND
-#define AFM_FEATURE_LIGHTS 0x40000000u  // the scene has lights of its own
+#define AFM_FEATURE_LIGHTS 0x40000000u  // the scene contains lights
 
 // Plain materials too: looks up the shadow on a back a step off the back instead of the front.
 #define AFM_FEATURE_DOUBLE_SIDED 0x80000000u
@@ -87,7 +87,7 @@ struct FrameBlock {
   vec4 cone_apex;         // xyz: lowest point of the cone that shades; w: radius of its rounded end
   vec4 cone_axis;         // xyz: unit, into the cone; w: growth of the radius along it
   vec4 cone_reach;        // x: height; y: strength, 0 without a cone
-  vec4 fog;               // x: begin, y: 1 / (end - begin), 0 without a range; z: veil; w: 1 with a range
+  vec4 fog;               // x: begin, y: 1 / (end - begin), 0 without a range; z: fade; w: 1 with a range
   vec4 screen[3];         // xyz: direction from between the eyes to the upper left corner of the eye images, and the
                           // vectors from there to the upper right and to the lower left corner
   vec4 fog_axis;          // distance beyond the fog's origin, in its units: dot(axis, (place, 1))

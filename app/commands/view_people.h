@@ -11,7 +11,7 @@ struct Stage;
 
 namespace afm::app {
 
-// Settings of whoever moves the hand, listens, or keeps the window open, from the options of `view`.
+// Settings of the people who move the hand, listen, or keep the window open, from the options of `view`.
 core::Result<void> set_people(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings);
 
 }  // namespace afm::app

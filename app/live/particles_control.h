@@ -104,7 +104,7 @@ class ParticlesControl final : public ViewControl {
   scene::PushSettings settings_{};             // settings in use, as far as announced
   std::optional<std::size_t> marked_;          // index into kPushSettings, or its size: the load of a look
   std::size_t look_load_ = 0;                  // index into the loads
-  bool sweeps_ = false;                        // true: the servo has been told of a look
+  bool sweeps_ = false;                        // true: the servo has been informed of a look
   std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
 };
 

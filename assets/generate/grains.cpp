@@ -9,7 +9,7 @@
 namespace afm::generate {
 
 double Grains::height(double x, double y) const {
-  // the middle of a cell stands at the origin, with a grain of its own
+  // the middle of a cell is at the origin, with a separate grain
   const double column = std::floor(x / cell + 0.5), row = std::floor(y / cell + 0.5);
   double sum = 0;
   for (int i = -2; i <= 2; ++i) {

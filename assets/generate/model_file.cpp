@@ -124,7 +124,7 @@ void use_extension(Writer& writer, const char* name) {
   if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
-// Materials are told apart by name.
+// Materials differ by name.
 std::size_t add_material(Writer& writer, const MaterialSpec& spec) {
   Json& materials = writer.root["materials"];
   for (std::size_t i = 0; i < materials.size(); ++i) {

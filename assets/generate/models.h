@@ -12,7 +12,7 @@ namespace afm::generate {
 Model probe();                 // chip, V-shaped cantilever, pyramidal tip
 std::vector<Model> samples();  // a patch of mica, gold and silicon nitride each
 Model stage();
-Model room();                   // the floor that the exhibit stands on
+Model room();                   // the floor below the exhibit
 std::vector<Model> swatches();  // what the wand points at to choose a material
 Model optics();                 // laser, four-quadrant photodiode, beam, spot
 Model wand();

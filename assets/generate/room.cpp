@@ -10,7 +10,7 @@ namespace {
 // In metres of the exhibit: x right, y up, z towards the viewer; the floor is at y = 0, the wall at z = 0.
 constexpr double kBack = 4.2, kBeside = 3.4;  // extent; the edge has dissolved into the background
 constexpr double kFront = 0.80;               // before the wall: under the shelf, and no further into the room
-constexpr double kFrontBeside = 1.25;         // what stands before the wall must not be cut off at its sides
+constexpr double kFrontBeside = 1.25;         // objects before the wall must not be cut off at their sides
 constexpr int kRings = 10;
 
 // The soft shade of the stage, which ends in the floor, wider away from the key light: the floor takes no other.
@@ -30,7 +30,7 @@ double visible(double x, double z) {
   return back * (1 - smooth_step(0.82, 1, toward)) * (1 - smooth_step(0.0, 0.25, z) * smooth_step(0.7, 1, aside));
 }
 
-// Finest about the middle of what stands on it.
+// Finest about the middle of the objects on it.
 Surface floor_surface() {
   Surface surface;
   const auto spread = [](std::size_t i, double low, double high) {

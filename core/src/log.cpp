@@ -113,7 +113,7 @@ void* write_waiting_lines(void*) {
   }
 }
 
-// Not real-time, whoever calls it; signals go to the other threads. False: no thread can be started.
+// Not real-time, whatever the calling thread; signals go to the other threads. False: no thread can be started.
 bool start_writer() {
   sigset_t every, before;
   ::sigfillset(&every);

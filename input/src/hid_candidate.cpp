@@ -29,7 +29,7 @@ constexpr const char* kRule =
     "copy 70-touchafm-wands.rules (in assets/wands; in a bundle: lib/udev/rules.d) to /etc/udev/rules.d, "
     "run sudo udevadm control --reload, replug it";
 
-// Use of a wand: changes within a quarter of a second. Sticks jitter by 0.02, sensors at rest drift by less than 1
+// Use of a wand: changes within a quarter of a second. Sticks vary by 0.02, sensors at rest drift by less than 1
 // degree a second.
 constexpr std::int64_t kUseMemoryNs = 250'000'000;
 constexpr double kUsedDeflection = 0.05;

@@ -40,7 +40,7 @@ class HidCandidate {
   // Presses of Stop since the previous call.
   std::uint32_t take_stops();
 
-  // Time of the last use: a button pressed, or a motion that is not the jitter of a stick or the drift of a sensor.
+  // Time of the last use: a button pressed, or a motion that is not the noise of a stick or the drift of a sensor.
   // 0: never.
   std::int64_t used_ns() const { return used_ns_; }
 

@@ -26,7 +26,7 @@ namespace afm::app {
 namespace input_files_test {
 
 // One input: its command, its option or argument as the help has it, the way to give it, and the ending of its name,
-// by which some formats are told apart. The file stands for @, a good wall for $WALL, a good lesson for $LESSON.
+// by which some formats are recognised. The file replaces @, a good wall for $WALL, a good lesson for $LESSON.
 struct Input {
   const char* command;
   const char* name;
@@ -186,7 +186,7 @@ TEST_P(InputFile, IsRefusedAtOnceByEveryCommandAndOption) {
   ASSERT_EQ(support::run_program(support::touchafm() + " curve --material mica --out " + curve).exit_code, 0);
   int number = 0;
   for (const Input& input : kInputs) {
-    // a name of its own: the last one may still be in use
+    // a new name: the last one may still be in use
     const std::string path = folder_.file(std::to_string(number++) + input.ending);
     GetParam().make(path);
     std::string words = input.words;

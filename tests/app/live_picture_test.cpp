@@ -58,8 +58,8 @@ class LivePictureTest : public ::testing::Test {
   void xdotool(const std::string& what) const {
     ASSERT_EQ(support::run_program("DISPLAY=" + display_.name() + " xdotool " + what).exit_code, 0) << what;
   }
-  // Whether the screen shows `expected` there, and not `other`, within half a minute. The live pattern has names of its
-  // own beside the same marks.
+  // Whether the screen shows `expected` there, and not `other`, within half a minute. The live pattern has other names
+  // beside the same marks.
   bool shows(const Image& expected, const Image& other, std::uint32_t left, std::uint32_t top) const {
     const auto end = std::chrono::steady_clock::now() + 30s;
     const auto apart = [](const Image& a, const Image& b) { return test::difference(a, b, 24).share_beyond; };

@@ -283,7 +283,7 @@ bool eventually(const std::function<bool()>& condition) {
 // Only a window manager makes an icon of a window.
 TEST_F(ViewTest, RestsWhileItIsMinimisedAndComesBack) {
   const support::LiveProgram manager({"/usr/bin/openbox", "--sm-disable"}, display_.name());
-  // GLFW 3.3 waits for ever for a window that is mapped in the moment in which a manager takes over
+  // GLFW 3.3 waits indefinitely for a window that is mapped in the moment in which a manager takes over
   const auto manages = [&] {
     return support::run_program("DISPLAY=" + display_.name() + " xdotool get_num_desktops").exit_code == 0;
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Words that make a text read as if it had been translated occur nowhere in what a person reads.
-// Invariant: help, messages, documents and guidance use no word that makes a text read like a translation
+// Invariant: help, messages, documents, guidance, comments and names of tests use no word that makes a text read like a
+// translation
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,10 +24,12 @@
 namespace afm {
 namespace plain_english_test {
 
+using support::comments_of;
 using support::lines_with;
 using support::messages_of;
 using support::page_of;
 using support::Prose;
+using support::test_names_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -172,6 +175,49 @@ TEST(PlainEnglish, IsWhatEveryMessageUses) {
   }
   EXPECT_GT(files, 600U);
   EXPECT_GT(messages, 1500U);
+  EXPECT_THAT(faults, IsEmpty());
+}
+
+TEST(Prose, IsEveryCommentAcrossItsLines) {
+  const auto comments = comments_of(
+      "int a;  // waits for\n"
+      "        // ever\n"
+      "const char* b = \"// no comment\";\n"
+      "  // the servo\n"
+      "  // tells it\n");
+  ASSERT_EQ(comments.size(), 2U);
+  EXPECT_THAT(lines_with(comments[0], "for ever"), ElementsAre(1));
+  EXPECT_THAT(lines_with(comments[1], "tells"), ElementsAre(5));
+}
+
+TEST(Prose, IsTheNameOfEveryTest) {
+  const auto names = test_names_of("int a;\nTEST_P(GridSheet, TellsAColour) {}\n  TEST(No, Test)\nTEST(B,\n     C) {}");
+  ASSERT_EQ(names.size(), 2U);
+  EXPECT_EQ(names[0].text, " Grid Sheet: Tells A Colour");
+  EXPECT_THAT(lines_with(names[0], "tells"), ElementsAre(2));
+  EXPECT_EQ(names[1].text, " B: C");
+}
+
+TEST(PlainEnglish, IsWhatCommentsAndNamesOfTestsUse) {
+  std::vector<std::string> faults;
+  std::size_t comments = 0, names = 0;
+  std::set<std::string> folders = support::production_folders();
+  folders.insert({"assets", "docs/reference", "shaders", "tests"});
+  for (const std::string& folder : folders) {
+    for (const auto& path : files_below(folder, {".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"})) {
+      const std::string source = core::read_file(path.string()).value();
+      for (const Prose& comment : comments_of(source)) {
+        ++comments;
+        append(faults, faults_of(in_tree(path), comment));
+      }
+      for (const Prose& name : test_names_of(source)) {
+        ++names;
+        append(faults, faults_of(in_tree(path), name));
+      }
+    }
+  }
+  EXPECT_GT(comments, 15000U);
+  EXPECT_GT(names, 3000U);
   EXPECT_THAT(faults, IsEmpty());
 }
 

@@ -31,6 +31,11 @@ class SourceReader {
     return std::move(trailing_comments_);
   }
 
+  std::vector<Prose> comments() {
+    messages();
+    return std::move(comments_);
+  }
+
  private:
   bool follows(std::string_view text) const { return source_.substr(at_).starts_with(text); }
 
@@ -71,6 +76,9 @@ class SourceReader {
     if (!std::all_of(before.begin(), before.end(), is_space)) {
       trailing_comments_.push_back({.text = std::string(text, line.end()), .line = line_});
     }
+    const bool continues = !comments_.empty() && comments_.back().lines.back() == line_ - 1;
+    Prose& comment = continues ? comments_.back() : comments_.emplace_back();
+    comment.add(std::string(text, line.end()) + " ", line_);
     skip_past("\n");
   }
 
@@ -110,6 +118,7 @@ class SourceReader {
   Prose message_;
   std::vector<Prose> messages_;
   std::vector<Comment> trailing_comments_;
+  std::vector<Prose> comments_;
 };
 
 }  // namespace
@@ -126,6 +135,26 @@ void Prose::add(std::string_view piece, int line) {
 std::vector<Prose> messages_of(std::string_view source) { return SourceReader(source).messages(); }
 
 std::vector<Comment> trailing_comments_of(std::string_view source) { return SourceReader(source).trailing_comments(); }
+
+std::vector<Prose> comments_of(std::string_view source) { return SourceReader(source).comments(); }
+
+std::vector<Prose> test_names_of(std::string_view source) {
+  std::vector<Prose> names;
+  int line = 0;
+  for (std::size_t at = 0; at < source.size(); at = source.find('\n', at) + 1) {
+    ++line;
+    const std::string_view rest = source.substr(at);
+    if (rest.starts_with("TEST(") || rest.starts_with("TEST_F(") || rest.starts_with("TEST_P(")) {
+      Prose& name = names.emplace_back();
+      for (const char c : rest.substr(rest.find('(') + 1, rest.find(')') - rest.find('(') - 1)) {
+        if (std::isupper(static_cast<unsigned char>(c)) != 0) name.add(" ", line);
+        name.add(c == ',' ? ":" : std::string_view(&c, 1), line);
+      }
+    }
+    if (source.find('\n', at) == std::string_view::npos) break;
+  }
+  return names;
+}
 
 Prose page_of(std::string_view document) {
   Prose page;

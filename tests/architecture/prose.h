@@ -28,6 +28,12 @@ struct Comment {
 // continuations on the next line, are left out.
 std::vector<Comment> trailing_comments_of(std::string_view source);
 
+// Every // comment of a C++ or GLSL source; comments on adjacent lines are one.
+std::vector<Prose> comments_of(std::string_view source);
+
+// The names of the tests that a source defines, suite and case, as words: "Jump To Contact: Happens Before Touch".
+std::vector<Prose> test_names_of(std::string_view source);
+
 // A page as one text, so that a phrase is found across the end of a line. Inline code of one word is left out.
 Prose page_of(std::string_view document);
 

@@ -111,7 +111,7 @@ std::string fault_of(const CommandDescription& program, const Quotation& quotati
       continue;
     }
     if (!command->commands.empty() && !words[i].starts_with("-")) {
-      // a placeholder such as COMMAND stands for any
+      // a placeholder such as COMMAND means any
       const bool is_placeholder = std::isupper(static_cast<unsigned char>(words[i].front())) != 0;
       return is_placeholder ? "" : fmt::format("{}: {}: no command {}", quotation.where, quotation.text, words[i]);
     }

@@ -28,7 +28,7 @@ std::string failure_of(int result) {
   return result >= 0 ? "allowed" : errno == EPERM || errno == EACCES ? "refused" : "failed";
 }
 
-// Waits in the kernel for ever, which costs no processor time.
+// Waits in the kernel indefinitely, which costs no processor time.
 std::string hang() {
   std::timed_mutex never;
   never.lock();

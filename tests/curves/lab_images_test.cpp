@@ -182,7 +182,7 @@ TEST(LabImageFiles, TakeSensitivitiesInAnyUnit) {
   EXPECT_NEAR(read.image.channels[0].values[0] / (4 * 0.44 / 65536 * 12.5e-9), 1.0, 1e-9);
 }
 
-// Without another word, a header that says so is believed, and the user told.
+// Without another word, a header that says so is believed, and the user informed.
 TEST(LabImageFiles, BelieveASizeOfPixelsThatAreNotSquareAndSayIt) {
   test::NanoscopeChannel fast = nanoscope("Height", 4, 2);
   fast.scan_size = "900 900 nm";

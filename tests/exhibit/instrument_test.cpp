@@ -55,7 +55,7 @@ class InstrumentTest : public test::PaperWall {
     return highest;
   }
 
-  // Nothing that is drawn stands between an eye and the panel.
+  // Nothing that is drawn is between an eye and the panel.
   void expect_before_all(const render::FrameState& frame, const render::PanelPlacement& panel, scene::Eye which,
                          double share) const {
     const scene::Viewer& viewer = wall_.viewers.front();
@@ -170,7 +170,7 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
   EXPECT_GT(shown, 40);
 }
 
-// After a pull-off the lever as it was hangs where the tip let go, and the jump's word stands free of tip and sample.
+// After a pull-off the lever as it was hangs where the tip let go, and the jump's word is clear of tip and sample.
 TEST_F(InstrumentTest, AGhostOfTheLeverHangsWhereTheTipLetGo) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double release_m = z_joc(material);
@@ -321,7 +321,7 @@ TEST_F(SwingTest, FillsABandBetweenTheTurns) {
     const glm::dvec3 end(room_from_band * glm::dvec4(length, 0.0, middle + side, 1.0));
     EXPECT_LT(glm::distance(end, origin(shown, name)), 1e-6) << name;
   }
-  // the outline of the lever, whose clamp stands still
+  // the outline of the lever, whose clamp does not move
   const scene::Mesh& band = scene_.scene().meshes[*scene_.scene().nodes[node("probe-band")].mesh];
   const scene::Mesh& lever = scene_.scene().meshes[*scene_.scene().nodes[node("probe/cantilever")].mesh];
   const auto span = [](const scene::Mesh& mesh) {

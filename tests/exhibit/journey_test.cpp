@@ -127,7 +127,7 @@ TEST_F(JourneyTest, FadesFromTheShadowsOfTrianglesToTheTipsSoftShade) {
     EXPECT_LE(static_cast<double>(state.key_light.map_share), share) << orders;
     EXPECT_LT(share - static_cast<double>(state.key_light.map_share), 0.2) << orders;
     share = static_cast<double>(state.key_light.map_share);
-    // it stands on the contact point
+    // it is on the contact point
     const glm::dvec3 contact(state.room_from_node[node("journey-frame")][3]);
     EXPECT_LT(glm::distance(glm::dvec3(state.cone.apex_m), contact), 0.71 * scene_.panel_millimetre_m() * 1000.0);
   }

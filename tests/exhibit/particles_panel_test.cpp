@@ -288,7 +288,7 @@ TEST_F(ParticlesPanel, SaysWhatAPlanAsksOfTheHand) {
   EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanHand).name, "") << "before the servo has said it";
 }
 
-// In brackets, and said to be unused: told apart without colour.
+// In brackets, and said to be unused: recognisable without colour.
 TEST_F(ParticlesPanel, ShowsTheOtherLawsFigureInBrackets) {
   const auto other = row(panel(test::push_of(set_, 0, PushState::Holds)), Phrase::PushOtherLaw);
   EXPECT_EQ(other.name, "(by another law)");

@@ -248,7 +248,7 @@ TEST_F(ViewInAHeadset, FeelsALeverThatTapsAndRecordsIt) {
   EXPECT_GE(replayed, 1);
 }
 
-// Of the eight pictures before a hang, for which the program has patience: by its frame log, whose last interval of
+// Of the eight pictures before a hang, which the program waits for: by its frame log, whose last interval of
 // kHangMs or more is the hang.
 constexpr int kHangMs = 1000;
 double longest_picture_ms(const std::string& frame_log, double least_ms) {

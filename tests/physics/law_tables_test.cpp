@@ -216,7 +216,7 @@ TEST(LawTables, CloseTheLoopAtTheCriticalStiffnessAndNotBelow) {
     EXPECT_GT(below.loop_energy, Energy());
     EXPECT_LT(below.z_joc - below.z_jtc, Length(1e-12));
 
-    // a support adds its compliance, and one softer than the law's steepest attraction keeps the loop open for ever
+    // a support adds its compliance, and one softer than the law's steepest attraction keeps the loop open indefinitely
     contact.sample_stiffness = 2.0 * critical;
     EXPECT_NEAR(build_law_tables(law, contact)->figures.critical_stiffness / critical, 2.0, 1e-6);
     contact.sample_stiffness = 0.5 * critical;

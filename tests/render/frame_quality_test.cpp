@@ -92,7 +92,7 @@ TEST_F(QualityOfFrames, PanelsKeepAllTheirPixels) {
         }
       }
       EXPECT_GT(text, 300U);
-      EXPECT_LE(differing, text / 50);  // at the edge of what stands before a panel
+      EXPECT_LE(differing, text / 50);  // at the edge of objects before a panel
       EXPECT_GT(room, 300U);            // the room is coarser
     }
   }

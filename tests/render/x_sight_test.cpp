@@ -80,7 +80,7 @@ TEST_F(SightOfAWindow, EndsWhereTheWindowManagerHidesIt) {
   EXPECT_EQ(sight(), Sight::Hidden);
 }
 
-// Without a compositor of its own, a window manager unmaps the windows of other workspaces, and may show two at once.
+// Without a compositor, a window manager unmaps the windows of other workspaces, and may show two at once.
 TEST_F(SightOfAWindow, EndsOnAnotherWorkspaceOfAWindowManagerThatComposites) {
   set(root_, "_NET_CURRENT_DESKTOP", XA_CARDINAL, 0);
   set(window_, "_NET_WM_DESKTOP", XA_CARDINAL, 1);

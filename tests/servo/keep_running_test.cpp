@@ -71,7 +71,7 @@ TEST_F(KeepRunning, WaitsForAProgramThatStartsSlowlyAndForOneThatBeats) {
   EXPECT_EQ(times(), 1);
 }
 
-// In a process of its own, which is killed.
+// In a separate process, which is killed.
 TEST_F(KeepRunning, LeavesNoProgramWithoutItsKeeper) {
   const pid_t keeper = ::fork();
   if (keeper == 0) {

@@ -133,7 +133,7 @@ TEST(ReplayOfParticles, GivesEveryBitAgainWithBothTools) {
   EXPECT_EQ(recording.sessions[1].samples.back().push.digest, recording.sessions[2].samples.front().push.digest);
 }
 
-// A sphere that is picked up, carried and set down on a pad, and one that hangs when the force is taken away.
+// A sphere that is picked up, carried and set down on a pad, and one that hangs when the force is removed.
 TEST(ReplayOfParticles, GivesEveryBitAgainOfASphereOnTheTip) {
   scene::SharedModel model = test::model_with_particles();
   model.particles = test::particles_to_lift({{0.0, 0.0}, {120e-9, 0.0}});

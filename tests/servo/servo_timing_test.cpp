@@ -15,7 +15,7 @@
 #include "haptics/simulated_device.h"
 #include "live_renderer.h"
 
-// When ticks come, and what becomes of the force when they come late. Real time.
+// Times of the ticks, and the force when they come late. Real time.
 namespace servo_timing_test {
 
 using namespace afm::scene;

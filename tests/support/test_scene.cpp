@@ -153,7 +153,7 @@ TestScene make_test_scene() {
       add(scene, "floor", quad(slate),
           glm::translate(glm::dmat4(1.0), glm::dvec3(0.0, -0.62, -0.2)) * glm::scale(flat, glm::dvec3(1.9, 1.3, 1.0)));
 
-  // along the wall from the left, thickness and bend downwards in the node's +z; in micrometres of its own
+  // along the wall from the left, thickness and bend downwards in the node's +z; in the lever's micrometres
   const glm::dmat4 lever_frame = glm::translate(glm::dmat4(1.0), glm::dvec3(-0.55, 0.25, -0.15)) *
                                  glm::rotate(glm::dmat4(1.0), glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0));
   test.lever = add(scene, "lever", lever(silicon, 0.12, 0.015, 40), lever_frame);

@@ -8,8 +8,8 @@
 
 namespace afm::curves {
 
-// The base of a lever in PeakForce tapping, of which a file has one period a curve: a cosine without a channel of its
-// own. "Peak Force Amplitude" of the header is its amplitude in nanometres, "Sync Distance QNM", otherwise "Sync
+// The base of a lever in PeakForce tapping, of which a file has one period a curve: a cosine without a separate
+// channel. "Peak Force Amplitude" of the header is its amplitude in nanometres, "Sync Distance QNM", otherwise "Sync
 // Distance", the time of its deepest point, counted like "Sample Points" in a period (as AtomicJ, pyAF and MagicAFM
 // read it).
 struct NanoscopeSwing {

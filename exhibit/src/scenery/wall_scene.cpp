@@ -126,7 +126,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
     const double thickness = look.thickness_m * kStrokeHeight / look.surface_stroke_m + w.instrument_.stage_height();
     floor_y = std::min(floor_y, -std::cos(kSampleTiltRad) * thickness - kLeastBody);
   }
-  // the body would veil swatches inside it
+  // the body would hide swatches inside it
   const double last_swatch_z = w.places_.swatch(w.looks_.size() - 1, w.looks_.size()).z;
   w.instrument_.set_floor(floor_y, last_swatch_z - kSwatchBehind);
   const dvec3 eye(glm::inverse(w.places_.room_from_layout()) * glm::dvec4(place.viewer_m, 1.0));

@@ -47,7 +47,7 @@ class FeltMarks {
 
   // Puts the marks back as they were before the newest stroke, or takes all of them away; a wait for a lift begins.
   // Call only without force. False if the tip is on the sample, or if there is nothing to put back. All strokes are
-  // forgotten when all marks are taken away.
+  // forgotten when all marks are removed.
   virtual bool take_back() noexcept = 0;
   virtual bool put_back() noexcept = 0;
 

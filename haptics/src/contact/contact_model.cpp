@@ -78,7 +78,7 @@ PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling
                          {-reach_m, reach_m});
 }
 
-// Stands in for the segment's topography in a validation without a segment.
+// Replaces the segment's topography in a validation without a segment.
 constexpr scene::SharedTopography kAnyTopography{.columns = 2, .rows = 2, .spacing_m = 1};
 
 // Additional energy that a recorded contact pressed down to `lowest` gives the hand on its way up from z, compared with

@@ -11,7 +11,7 @@ namespace afm::input {
 // Head position for the picture, from a tracker that has latency and may lose the head. Pure; one thread.
 //
 // - Predicts the head's position over the measured latency from its measured velocity, by at most 50 mm. Does not
-//   smooth it: on a wall, lag is worse than jitter.
+//   smooth it: on a wall, lag is worse than noise.
 // - Holds a lost head for 250 ms, then moves it within 1 s to the sweet spot. A head found again is moved back as
 //   gently: the picture never jumps.
 class HeadTracker {

@@ -45,7 +45,7 @@ class Selector {
 
 // Snapping distance of the bubble ray.
 inline constexpr double kPickConeRad = 5.0 * 3.14159265358979323846 / 180.0;
-// Twice the jitter of a hand at rest (0.5 degrees RMS, tests/input/simulated_user_test.cpp).
+// Twice the noise of a hand at rest (0.5 degrees RMS, tests/input/simulated_user_test.cpp).
 inline constexpr double kStickRad = 1.0 * 3.14159265358979323846 / 180.0;
 
 }  // namespace afm::input

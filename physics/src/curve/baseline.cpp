@@ -276,7 +276,7 @@ Stretch chosen_stretch(const Falling& approach, const WayRange& range) {
   return {approach.between(first, to), approach.z_far()};
 }
 
-// Outside the contact by the straight baseline, less a tenth: a wave cannot be told from the beginning of a contact.
+// Outside the contact by the straight baseline, less a tenth: a wave resembles the beginning of a contact.
 Stretch outside_contact(std::span<const CurvePoint> recorded, const Falling& approach, const Baseline& line) {
   constexpr double kKept = 0.9;
   std::vector<CurvePoint> above(recorded.begin(), recorded.end());

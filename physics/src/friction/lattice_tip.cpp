@@ -121,7 +121,7 @@ std::array<double, 2> LatticeTip::softest(const Rest& rest) noexcept {
   return {x / length, y / length};
 }
 
-// Returns whether a tip at rest at `t` in `rest` reaches the end of its own well at `end` in `last`, and not that of
+// Returns whether a tip at rest at `t` in `rest` reaches the end of its well at `end` in `last`, and not that of
 // another well. Near the end of a well, its minimum moves with the square root of the remaining path.
 bool LatticeTip::leads_to(const Rest& rest, double t, const Rest& last, double end, const Control& at,
                           const Control& change) const noexcept {

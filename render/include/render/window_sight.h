@@ -18,9 +18,9 @@ enum class Sight { Seen, Hidden, Covered, Blanked, OffMonitors };
 const char* text_of(Sight sight);
 
 // Visibility of windows on an X server: whether at least one is mapped, on the current workspace, on a monitor that is
-// switched on, not wholly covered, and the screen is not blanked by its saver or by DPMS. A thread with a connection of
-// its own asks 25 times a second and follows the server's events; any thread may read the newest answer. Elsewhere, as
-// on Wayland, which does not report it, windows count as seen. The clock must outlive it.
+// switched on, not wholly covered, and the screen is not blanked by its saver or by DPMS. A thread with a separate
+// connection asks 25 times a second and follows the server's events; any thread may read the newest answer. Elsewhere,
+// as on Wayland, which does not report it, windows count as seen. The clock must outlive it.
 class WindowSight {
  public:
   WindowSight(std::span<Window* const> windows, const core::Clock& clock);

@@ -20,8 +20,8 @@ struct Color {
   float alpha = 1.0F;
 };
 
-// Colours of the panels: light ink on a dark background, and the palette of Okabe and Ito, whose colours can be told
-// apart with any kind of colour vision.
+// Colours of the panels: light ink on a dark background, and the palette of Okabe and Ito, whose colours differ
+// with any kind of colour vision.
 namespace palette {
 inline constexpr Color kPlate{{0.055F, 0.066F, 0.090F}, 0.90F};
 inline constexpr Color kEdge{{0.62F, 0.70F, 0.80F}, 0.30F};

@@ -46,7 +46,7 @@ class ScenePass {
  private:
   struct PlainPipelines {
     EyePipeline single_sided, double_sided, unlit;
-    EyePipeline smooth;  // Shading::LightByVertex, without haze
+    EyePipeline smooth;  // Shading::LightByVertex, without fog
   };
   Look plain_look() const { return {*layout_, one_light_}; }
   static PlainPipelines plain_pipelines(const Device& device, const Look& look, Blending blending,
@@ -74,10 +74,10 @@ class ScenePass {
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout variant_layout_;
-  std::array<PlainPipelines, 2> opaque_;                         // without and with haze
+  std::array<PlainPipelines, 2> opaque_;                         // without and with fog
   vk::raii::Pipeline shadow_{nullptr}, shadow_copies_{nullptr};  // created at first use
-  std::array<EyePipeline, 2> copies_;                            // without and with haze
-  EyePipeline fine_;                                             // shaded per vertex, without haze
+  std::array<EyePipeline, 2> copies_;                            // without and with fog
+  EyePipeline fine_;                                             // shaded per vertex, without fog
   EyePipeline background_;                                       // drawn where nothing else is
   EyePipeline erasing_background_;                               // overwrites the old contents
   std::array<PlainPipelines, 2> blended_;

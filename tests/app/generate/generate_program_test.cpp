@@ -200,7 +200,7 @@ void wait_for_the_next_second() {
   }
 }
 
-// HDF5 writes the time, in whole seconds, into its files unless it is told not to.
+// HDF5 writes the time, in whole seconds, into its files unless this is switched off.
 TEST(Generated, AgainInAnotherSecondIsTheSameBytes) {
   const support::ScratchFolder folder;
   for (const char* ending : {"h5", "tab", "csv"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lesson "Two states", taken by a learner that hears the mixer's samples and sees, feels and is told nothing.
+// The lesson "Two states", taken by a learner that hears the mixer's samples and sees, feels and is given nothing else.
 #include <gtest/gtest.h>
 
 #include <cmath>

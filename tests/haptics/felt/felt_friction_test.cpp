@@ -275,7 +275,7 @@ TEST(FeltFriction, OffLeavesEveryBitOfTheForce) {
   }
 }
 
-// The ledger of a thousand random walks of the hand in contact, up and down and sideways, on every scale: over a closed
+// The energy of a thousand random walks of the hand in contact, up and down and sideways, on every scale: over a closed
 // path the hand never gets more than the sampling of a spring gives.
 TEST(FeltFriction, NeverGivesMoreThanASampledSpring) {
   std::mt19937_64 random(23);

@@ -5,12 +5,12 @@
 // exports the functions of the interface and drives devices that exist only in memory; a test loads it as a user's
 // library is loaded and links it for these functions.
 //
-// A program that is started by a test is told by its environment: MOCK_DHD_FAULT is missing, hangs or reset;
+// A program that is started by a test is controlled by its environment: MOCK_DHD_FAULT is missing, hangs or reset;
 // MOCK_DHD_SCRIPT names a file for a PersonScript.
 extern "C" {
 
 // Everything as if the library had just been loaded: one omega.3 with the serial number 1234, calibrated, its force
-// off. Time stands still until mock_dhd_set_time().
+// off. Time does not pass until mock_dhd_set_time().
 void mock_dhd_reset(void);
 
 // Time of the device's own watchdog; mock_dhd_use_clock() makes it the machine's.

@@ -5,7 +5,7 @@
 // 36 functions of the interface and drives a stylus that exists only in memory; a test loads it as a user's library is
 // loaded and links it for these functions.
 //
-// A program that is started by a test is told by its environment: MOCK_HD_FAULT is missing, busy, hangs or
+// A program that is started by a test is controlled by its environment: MOCK_HD_FAULT is missing, busy, hangs or
 // uncalibrated; MOCK_HD_SCRIPT names a file of lines "seconds x_mm y_mm z_mm buttons", which the stylus follows by
 // straight paths from the start of the scheduler, again and again. Both imply a scheduler thread.
 extern "C" {

@@ -10,7 +10,7 @@
 namespace afm::exhibit {
 
 // Millet's analogy of the approach-retract cycle: a magnet on a spring above an iron plate. The hand that holds the
-// spring stands for the piezo, the spring for the cantilever, the magnet for the tip and the plate for the sample.
+// spring represents the piezo, the spring the cantilever, the magnet the tip and the plate the sample.
 class Analogy {
  public:
   Analogy() = default;

@@ -102,7 +102,7 @@ class MarkedSurface {
   // Of the middle half of the way, across it.
   GrooveSection section(const Sideways<Length>& from, const Sideways<Length>& to) const noexcept;
 
-  // By the heights of the grid: what lies below z = 0 and what stands above it, without load.
+  // By the heights of the grid: the parts below z = 0 and above it, without load.
   Volume below() const noexcept;
   Volume above() const noexcept;
 

@@ -13,7 +13,7 @@ struct SoftSurface {
   Pressure hardness;               // H
   Pressure reduced_modulus;        // E* of tip and surface
   SurfaceEnergy work_of_adhesion;  // W of tip and surface
-  double pile_up_share = 0.0;      // share of the volume of a groove that stands beside it; the rest is densified
+  double pile_up_share = 0.0;      // share of the volume of a groove that is piled up beside it; the rest is densified
 };
 
 // Throws UnphysicalValue with the field hardness, sample_modulus, work_of_adhesion or pile_up_share. A surface with
@@ -42,7 +42,7 @@ Area tip_area(const SphereCone& tip, Length depth) noexcept;
 // A_v(d): area of the tip below the surface, seen along its way (M51).
 Area groove_section(const SphereCone& tip, Length depth) noexcept;
 
-// Depth under load: of a tip that stands, H A(d) = F, and of one that is dragged over a fresh surface, where the front
+// Depth under load: of a tip at rest, H A(d) = F, and of one that is dragged over a fresh surface, where the front
 // half alone bears, H A(d)/2 = F (M52).
 Length imprint_depth(const SphereCone& tip, const SoftSurface& surface, Force load) noexcept;
 Length groove_depth(const SphereCone& tip, const SoftSurface& surface, Force load) noexcept;

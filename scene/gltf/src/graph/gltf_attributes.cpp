@@ -13,7 +13,7 @@
 namespace afm::scene {
 namespace {
 
-// Integer types allowed for an attribute besides float.
+// Integer types allowed for an attribute, in addition to float.
 enum class Integers { None, NormalizedUnsigned, Unsigned, Small, SmallSigned };
 
 struct Attribute {
