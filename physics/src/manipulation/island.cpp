@@ -32,24 +32,6 @@ double island_turning_share(double tip_friction) noexcept {
 
 double largest_sticking_angle(double tip_friction) noexcept { return std::atan(tip_friction * (1.0 + kIslandArm2)); }
 
-double island_angle_after(double travel_over_rho, double angle_rad, double tip_friction) noexcept {
-  const double sign = angle_rad < 0.0 ? -1.0 : 1.0, from_rad = std::abs(angle_rad);
-  if (from_rad == 0.0 || from_rad >= kQuarterTurn) return angle_rad;
-  const double slips_rad = largest_sticking_angle(tip_friction);
-  double at_rad = from_rad, left = travel_over_rho;
-  if (from_rad < slips_rad) {
-    const double sticks = std::min(left, sticking_travel(from_rad, slips_rad));
-    at_rad = 2.0 * std::atan(std::tan(0.5 * from_rad) * std::exp(kIslandTurning * sticks));
-    left -= sticks;
-  }
-  if (left > 0.0) {
-    const double delta = std::atan(tip_friction);
-    const double half = std::tan(0.5 * (at_rad - delta)) * std::exp(left / std::cos(delta));
-    at_rad = std::min(kQuarterTurn, delta + 2.0 * std::atan(half));
-  }
-  return sign * at_rad;
-}
-
 double island_travel_until_lost(double offset_over_rho, double tip_friction) noexcept {
   const double from_rad = std::asin(std::min(1.0, std::abs(offset_over_rho)));
   const double slips_rad = largest_sticking_angle(tip_friction);

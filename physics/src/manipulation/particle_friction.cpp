@@ -159,8 +159,4 @@ PushBalance push_balance(const ParticleSpecies& species, const TipGrip& grip, do
   return roll(species, grip, sine, cosine, share);
 }
 
-double largest_rolling_friction(double half_angle_rad) noexcept {
-  return std::cos(half_angle_rad) / (1.0 + std::sin(half_angle_rad));
-}
-
 }  // namespace afm::physics

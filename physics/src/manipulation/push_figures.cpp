@@ -72,20 +72,6 @@ Force largest_push(const SphereCone& tip, Length sphere_radius, Stiffness normal
 
 double largest_offset(double travel_over_rho) noexcept { return 1.0 / std::cosh(travel_over_rho); }
 
-double travel_until_lost(double offset_over_rho) noexcept {
-  return -std::log(std::tan(0.5 * std::asin(offset_over_rho)));
-}
-
 Velocity fastest_steering(Length rho, Time delay) noexcept { return rho / delay; }
-
-FirstSlip first_slip(Force static_threshold, Force kinetic_threshold, Stiffness sideways) noexcept {
-  return {static_threshold / sideways, (static_threshold - kinetic_threshold) / sideways,
-          0.5 * (static_threshold * static_threshold - kinetic_threshold * kinetic_threshold) / sideways};
-}
-
-PressedPush pressed_push(const PushBalance& push, Force preload, double sample_friction) noexcept {
-  const Force load{std::max(0.0, (preload - push.lift).si)};
-  return {load, push.lateral + sample_friction * load};
-}
 
 }  // namespace afm::physics

@@ -5,12 +5,6 @@
 #include <numbers>
 
 namespace afm::physics {
-namespace {
-
-// 128 E I without the modulus.
-double bending_m4(Length radius) noexcept { return 32.0 * std::numbers::pi * std::pow(radius.si, 4.0); }
-
-}  // namespace
 
 Length rod_pivot(Length length, Length place) noexcept {
   const double s = std::abs(place.si), half = 0.5 * length.si;
@@ -22,12 +16,9 @@ Force rod_threshold(Force sideways, Length length, Length place) noexcept {
   return sideways * (2.0 * (rod_pivot(length, place) / length));
 }
 
-Length rod_lag(Stiffness friction_per_length, Pressure modulus, Length radius, Length length) noexcept {
-  return Length(friction_per_length.si * std::pow(length.si, 4.0) / (modulus.si * bending_m4(radius)));
-}
-
 Length longest_rigid_rod(Stiffness friction_per_length, Pressure modulus, Length radius) noexcept {
-  return Length(std::cbrt(kRigidShare * modulus.si * bending_m4(radius) / friction_per_length.si));
+  const double bending_m4 = 32.0 * std::numbers::pi * std::pow(radius.si, 4.0);  // 128 I
+  return Length(std::cbrt(kRigidShare * modulus.si * bending_m4 / friction_per_length.si));
 }
 
 }  // namespace afm::physics

@@ -23,10 +23,33 @@ using test::degrees;
 using test::drag;
 using test::expect_relative;
 using test::flank_tip;
+using test::travel_until_lost;
 
 constexpr Length kRadius{97.7e-9}, kRim{25e-9};
 constexpr Force kThreshold{30e-9};
 constexpr double kRates[] = {500.0, 1000.0, 4000.0};
+
+constexpr double kQuarterTurn = 0.5 * std::numbers::pi;
+
+// alpha after a travel over rho, from alpha_0 below a quarter turn, at most that (M43).
+double island_angle_after(double travel_over_rho, double angle_rad, double tip_friction) {
+  const double sign = angle_rad < 0.0 ? -1.0 : 1.0, from_rad = std::abs(angle_rad);
+  if (from_rad == 0.0 || from_rad >= kQuarterTurn) return angle_rad;
+  const double slips_rad = largest_sticking_angle(tip_friction);
+  double at_rad = from_rad, left = travel_over_rho;
+  if (from_rad < slips_rad) {
+    const double sticks =
+        std::min(left, std::log(std::tan(0.5 * slips_rad) / std::tan(0.5 * from_rad)) / kIslandTurning);
+    at_rad = 2.0 * std::atan(std::tan(0.5 * from_rad) * std::exp(kIslandTurning * sticks));
+    left -= sticks;
+  }
+  if (left > 0.0) {
+    const double delta = std::atan(tip_friction);
+    const double half = std::tan(0.5 * (at_rad - delta)) * std::exp(left / std::cos(delta));
+    at_rad = std::min(kQuarterTurn, delta + 2.0 * std::atan(half));
+  }
+  return sign * at_rad;
+}
 
 ParticleSpecies island(double kinetic_ratio = 1.0) {
   ParticleSpecies species;

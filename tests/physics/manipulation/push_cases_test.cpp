@@ -32,8 +32,35 @@ using test::expect_relative;
 using test::flank_tip;
 using test::gold;
 using test::latex;
+using test::travel_until_lost;
 
 constexpr double kClosed = 1e-6;  // tolerance of the table, relative
+
+// Cost of the slip of a sphere at rest on the way to f_s: travel of the base, jump of the sphere, energy lost (M15).
+struct FirstSlip {
+  Length travel, jump;
+  Energy lost;
+};
+FirstSlip first_slip(Force static_threshold, Force kinetic_threshold, Stiffness sideways) {
+  return {static_threshold / sideways, (static_threshold - kinetic_threshold) / sideways,
+          0.5 * (static_threshold * static_threshold - kinetic_threshold * kinetic_threshold) / sideways};
+}
+
+// A tip that a lever presses on the sample while it pushes a sphere: the rest of the load F_0, F_0 - N sin, which is at
+// least 0 because the flank lifts the tip; and the lateral force on the lever, N cos with the friction of the tip under
+// that load (M83).
+struct PressedPush {
+  Force load, lateral;
+};
+PressedPush pressed_push(const PushBalance& push, Force preload, double sample_friction) {
+  const Force load{std::max(0.0, (preload - push.lift).si)};
+  return {load, push.lateral + sample_friction * load};
+}
+
+// The largest mu_t at which any sphere rolls: cos/(1 + sin) = tan(pi/4 - phi/2) (M7).
+double largest_rolling_friction(double half_angle_rad) {
+  return std::cos(half_angle_rad) / (1.0 + std::sin(half_angle_rad));
+}
 
 double power_of_radius(ParticleSpecies species, Force load) {
   const double radius = species.contact.tip_radius.si;

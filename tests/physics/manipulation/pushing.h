@@ -51,6 +51,11 @@ inline SphereCone flank_tip(Length radius, double half_angle_deg = 15.0) {
   return {radius, half_angle_deg * std::numbers::pi / 180.0};
 }
 
+// Travel over rho until a sphere at the offset is lost, alpha = 90 degrees: -ln tan(alpha_0/2) (M13).
+inline double travel_until_lost(double offset_over_rho) {
+  return -std::log(std::tan(0.5 * std::asin(offset_over_rho)));
+}
+
 inline LeverBase base_at(double x_m, double y_m = 0.0, double z_m = 0.0) {
   return {{Length(x_m), Length(y_m)}, Length(z_m)};
 }

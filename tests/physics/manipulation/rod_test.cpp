@@ -163,6 +163,11 @@ TEST(Rod, N50TurnsAboutAFixedPointWhenItsEndIsPushed) {
 }
 
 TEST(Rod, N52HowLongItMayBeToBeRigid) {
+  // (M21), with I = pi r^4/4
+  const auto rod_lag = [](Stiffness friction_per_length, Pressure modulus, Length radius, Length length) {
+    return Length(friction_per_length.si * std::pow(length.si, 4.0) /
+                  (128.0 * modulus.si * 0.25 * std::numbers::pi * std::pow(radius.si, 4.0)));
+  };
   expect_relative(rod_lag(Stiffness(0.05), Pressure(1e12), 10_nm, Length(1e-6)).si, 4.973591972e-08, kClosed);
   const Length longest = longest_rigid_rod(Stiffness(0.05), Pressure(1e12), 10_nm);
   expect_relative(longest.si, 7.381080595e-07, kClosed);

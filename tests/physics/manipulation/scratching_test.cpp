@@ -76,7 +76,7 @@ TEST(Scratching, ADraggedTipDigsAsInN60AndN62) {
     const Mean mean = groove(tip, base_at(100e-9 * std::cos(angle), 100e-9 * std::sin(angle), -106.3e-9));
     const Length depth = groove_depth(marking_tip(), pmma(), Force(mean.load_n));
     EXPECT_NEAR(mean.depth_m, depth.si, 0.06 * depth.si) << angle;
-    const double force = ploughing_force(marking_tip(), pmma(), depth).si;
+    const double force = (pmma().hardness * groove_section(marking_tip(), depth)).si;
     EXPECT_NEAR(mean.lateral_n, force, 0.1 * force) << angle;
     // against the motion
     EXPECT_LT(tip.last().lateral.x.si, 0.0);

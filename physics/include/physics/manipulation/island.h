@@ -25,11 +25,8 @@ double island_turning_share(double tip_friction) noexcept;
 // The angle up to which tip and rim stick, tan(alpha) = mu_t (1 + R^2/c^2) (M42).
 double largest_sticking_angle(double tip_friction) noexcept;
 
-// alpha after a travel, from alpha_0 below a quarter turn, at most that (M43). `travel` is over rho, the distance of
-// the axes of tip and island.
-double island_angle_after(double travel_over_rho, double angle_rad, double tip_friction) noexcept;
-
-// Travel over rho until an island at the offset from the tip's path, over rho, is lost: alpha is a quarter turn (M43).
+// Travel over rho, the distance of the axes of tip and island, until an island at the offset from the tip's path, over
+// rho, is lost: alpha is a quarter turn (M43).
 double island_travel_until_lost(double offset_over_rho, double tip_friction) noexcept;
 
 }  // namespace afm::physics

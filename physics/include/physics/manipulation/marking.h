@@ -60,12 +60,6 @@ Force least_marking_load(const SphereCone& tip, const SoftSurface& surface) noex
 // Load at which a dragged tip begins to touch with its cone.
 Force cap_load(const SphereCone& tip, const SoftSurface& surface) noexcept;
 
-// H A_v(d), the sideways force of a groove (M54).
-Force ploughing_force(const SphereCone& tip, const SoftSurface& surface, Length depth) noexcept;
-
-// The same over the load for a cone without a cap, (2/pi) cot(half angle) (M55).
-double cone_ploughing_coefficient(double half_angle_rad) noexcept;
-
 // Height of two parabolic ridges, each half as wide as the groove, that hold the share of its section (M56).
 Length ridge_height(Area section, double share, Length width) noexcept;
 

@@ -110,7 +110,4 @@ struct PushBalance {
 PushBalance push_balance(const ParticleSpecies& species, const TipGrip& grip, double sine, double cosine,
                          double share = 1.0);
 
-// The largest mu_t at which any sphere rolls: cos/(1 + sin) = tan(pi/4 - phi/2) (M7).
-double largest_rolling_friction(double half_angle_rad) noexcept;
-
 }  // namespace afm::physics

@@ -42,30 +42,10 @@ Force largest_push(const SphereCone& tip, Length sphere_radius, Stiffness normal
 // sphere: sin(alpha_0) = 1/cosh(travel/rho) (M12).
 double largest_offset(double travel_over_rho) noexcept;
 
-// Travel over rho until a sphere at the offset is lost, alpha = 90 degrees: -ln tan(alpha_0/2) (M13).
-double travel_until_lost(double offset_over_rho) noexcept;
-
 // Delay of a hand that steers by eye and touch, order of magnitude.
 inline constexpr Time kSteeringDelay{0.25};
 
 // The fastest hand that steers with the delay T can balance a sphere: rho/T (M14).
 Velocity fastest_steering(Length rho, Time delay) noexcept;
-
-// Cost of the slip of a sphere at rest on the way to f_s: travel of the base, jump of the sphere, energy lost (M15).
-struct FirstSlip {
-  Length travel;
-  Length jump;
-  Energy lost;
-};
-FirstSlip first_slip(Force static_threshold, Force kinetic_threshold, Stiffness sideways) noexcept;
-
-// A tip that a lever presses on the sample while it pushes a sphere: what is left of the load F_0, F_0 - N sin and at
-// least 0, since the flank lifts the tip, and the lateral force on the lever, N cos and the friction of the tip under
-// that load (M83).
-struct PressedPush {
-  Force load;
-  Force lateral;
-};
-PressedPush pressed_push(const PushBalance& push, Force preload, double sample_friction) noexcept;
 
 }  // namespace afm::physics

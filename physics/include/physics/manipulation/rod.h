@@ -14,10 +14,8 @@ Length rod_pivot(Length length, Length place) noexcept;
 // F = 2 q d (M20), with the force q L that moves the rod sideways as a whole.
 Force rod_threshold(Force sideways, Length length, Length place) noexcept;
 
-// q L^4/(128 E I) (M21): how far the ends of a solid rod lag behind its pushed middle. I = pi r^4/4.
-Length rod_lag(Stiffness friction_per_length, Pressure modulus, Length radius, Length length) noexcept;
-
-// The longest rod whose ends lag by at most kRigidShare of its length: a longer one is not rigid.
+// The longest rod whose ends lag by at most kRigidShare of its length: a longer one is not rigid. The ends of a solid
+// rod lag behind its pushed middle by q L^4/(128 E I), I = pi r^4/4 (M21).
 inline constexpr double kRigidShare = 0.02;
 Length longest_rigid_rod(Stiffness friction_per_length, Pressure modulus, Length radius) noexcept;
 

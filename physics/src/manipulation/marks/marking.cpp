@@ -106,12 +106,6 @@ Force cap_load(const SphereCone& tip, const SoftSurface& surface) noexcept {
   return 0.5 * (surface.hardness * tip_area(tip, TipOutline(tip).rim_height()));
 }
 
-Force ploughing_force(const SphereCone& tip, const SoftSurface& surface, Length depth) noexcept {
-  return surface.hardness * groove_section(tip, depth);
-}
-
-double cone_ploughing_coefficient(double half_angle_rad) noexcept { return 2.0 / (pi * std::tan(half_angle_rad)); }
-
 Length ridge_height(Area section, double share, Length width) noexcept {
   // both together have two thirds of width times height
   return 1.5 * share * (section / width);
