@@ -25,6 +25,7 @@
 #include "app/options/levelling_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "core/enumerators.h"
 #include "core/file_kind.h"
 #include "core/json_text.h"
 #include "core/whole_file.h"
@@ -77,6 +78,7 @@ constexpr std::array kFileKinds{
     FileKindRow{FileKind::Image, "image", "an image", "images", curves::kImageFiles, curves::is_image_file},
     FileKindRow{FileKind::Session, "session", "a session", "sessions", ".afms, for its friction loop",
                 servo::is_session_file}};
+static_assert(core::has_row_for_each(kFileKinds, &FileKindRow::kind));
 
 std::string known_files() {
   std::string text;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/enumerators.h"
 #include "curves/sample_model.h"
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/frame/frame_builder.h"
@@ -193,6 +194,7 @@ core::Result<RenderSubject> wall_subject(const exhibit::Stage& stage, std::uint3
     materials.push_back(std::move(*model));
   }
   static constexpr std::array kNames{"wall", "wall, head moving", "wall at rest"};
+  static_assert(kNames.size() == core::kEnumerators<WallMotion>.size());
   RenderSubject subject{.name = kNames[static_cast<std::size_t>(motion)],
                         .scene = stage.wall_scene.scene(),
                         .drawing = stage.renderer_options(eye_width_px),

@@ -19,6 +19,7 @@
 #include "app/options/exhibit_options.h"
 #include "app/options/pixel_size_option.h"
 #include "cluster/network.h"
+#include "core/enumerators.h"
 #include "core/log.h"
 #include "core/written_by.h"
 #include "exhibit/frame/calibration.h"
@@ -193,6 +194,7 @@ void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
   const exhibit::StagePlace stage = exhibit::stage_place(wall);
   const exhibit::WallShape shape = exhibit::wall_shape(stage);
   constexpr auto kPanels = std::to_array({"next to the instrument", "below the shelf", "on the side screens"});
+  static_assert(kPanels.size() == core::kEnumerators<exhibit::Arrangement>.size());
   std::printf("composition: scene on screen %s, panels %s\n", stage.main.name.c_str(),
               kPanels[static_cast<std::size_t>(shape.arrangement)]);
   // A line of the smallest text is 30 mm high on the paper's wall; a capital of Inter has 0.60 of its line.

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "app/options/enum_option.h"
+#include "core/enumerators.h"
 
 namespace afm::app {
 
@@ -16,6 +17,7 @@ struct NamedServoMode {
 
 constexpr std::array kServoModes{NamedServoMode{servo::ServoMode::Process, "process"},
                                  NamedServoMode{servo::ServoMode::Thread, "thread"}};
+static_assert(core::has_row_for_each(kServoModes, &NamedServoMode::mode));
 
 }  // namespace
 

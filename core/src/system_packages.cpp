@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/enumerators.h"
 #include "core/whole_file.h"
 
 namespace afm::core {
@@ -70,6 +71,7 @@ constexpr std::array kParts{
          {"fonts-inter fonts-dejavu-core", "rsms-inter-fonts dejavu-sans-fonts", "inter-font ttf-dejavu",
           "inter-fonts dejavu-fonts"}},
 };
+static_assert(has_row_for_each(kParts, &Part::part));
 
 const Part& row_of(SystemPart part) {
   return *std::find_if(kParts.begin(), kParts.end(), [part](const Part& row) { return row.part == part; });

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adhesive_branch.h"
+#include "physics/rows_of_enum.h"
 
 namespace afm::fits {
 
@@ -177,7 +178,7 @@ class Judge {
 
 }  // namespace
 
-const std::array<DoubtRow, 16> kDoubts{{
+constexpr std::array<DoubtRow, 16> kDoubts{{
     {Doubt::NeverPushed, true, Side::Below, 5.0, "the sample is hardly pushed: greatest push over the noise"},
     {Doubt::Saturated, true, Side::Above, 5.0,
      "the greatest force stays constant, as at a detector's limit: its points over those of a usual force"},
@@ -202,6 +203,7 @@ const std::array<DoubtRow, 16> kDoubts{{
     {Doubt::BeyondDmt, false, Side::Above, 0.1, "Tabor's parameter is above that of DMT"},
     {Doubt::BelowJkr, false, Side::Below, 5.0, "Tabor's parameter is below that of JKR"},
 }};
+static_assert(physics::has_row_for_each(kDoubts, &DoubtRow::doubt));
 
 namespace {
 

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "physics/rows_of_enum.h"
+
 namespace afm::fits {
 
 namespace {
@@ -134,7 +136,7 @@ double strain_of(const ShapeRow& row, const Indenter& indenter, double depth_m) 
 
 }  // namespace
 
-const std::array<ShapeRow, 15> kShapes{{
+constexpr std::array<ShapeRow, 15> kShapes{{
     {Shape::Paraboloid, "paraboloid", true, false, false, false,
      "Hertz 1881, (4/3) E* sqrt(R) d^1.5; nanite's hertz_para", true},
     {Shape::Sphere, "sphere", true, false, false, false, "Sneddon 1965, exact", false},
@@ -164,6 +166,7 @@ const std::array<ShapeRow, 15> kShapes{{
     {Shape::Auto, "auto", true, false, false, true, "adhesion: dmt, maugis or jkr, by Tabor's parameter; both branches",
      true},
 }};
+static_assert(physics::has_row_for_each(kShapes, &ShapeRow::shape));
 
 const ShapeRow& row_of(Shape shape) { return kShapes.at(static_cast<std::size_t>(shape)); }
 

@@ -8,16 +8,18 @@
 #include <numeric>
 
 #include "oscillator_problem.h"
+#include "physics/rows_of_enum.h"
 #include "profile.h"
 
 namespace afm::fits {
 
-const std::array<SpectrumDoubtRow, 5> kSpectrumDoubts{
+constexpr std::array<SpectrumDoubtRow, 5> kSpectrumDoubts{
     {{SpectrumDoubt::OtherShape, "it is not one oscillator on a constant floor; chi square of neighbours"},
      {SpectrumDoubt::TooCoarse, "few points in the width of the resonance"},
      {SpectrumDoubt::Unknown, "the area is hardly known; its relative standard deviation"},
      {SpectrumDoubt::FewerAverages, "the scatter is that of fewer averages; share of those given"},
      {SpectrumDoubt::Correlated, "neighbours are correlated more than by a window; growth of the variances"}}};
+static_assert(physics::has_row_for_each(kSpectrumDoubts, &SpectrumDoubtRow::doubt));
 
 namespace {
 

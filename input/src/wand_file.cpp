@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "core/enumerators.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
 
@@ -47,6 +48,7 @@ HidMapping::Axis read_axis(const TomlTable& table) {
        {"turn", Quantity::Turn},
        {"gyro", Quantity::Gyro},
        {"acceleration", Quantity::Acceleration}}};
+  static_assert(core::has_row_for_each(kQuantities, &std::pair<std::string_view, Quantity>::second));
   HidMapping::Axis axis;
   const std::string name = table.text("axis");
   bool known = false;

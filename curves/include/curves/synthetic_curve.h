@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/enumerators.h"
 #include "core/result.h"
 #include "curves/quantity_domain.h"
 #include "curves/recorded_curve.h"
@@ -43,6 +44,7 @@ inline constexpr std::array kFieldShapes{
     FieldShapeRow{FieldShape::Step, "step", "the second value in the right half"},
     FieldShapeRow{FieldShape::Gradient, "gradient", "from the left column to the second value in the right one"},
     FieldShapeRow{FieldShape::Islands, "islands", "the second value in five discs, whose places follow from the seed"}};
+static_assert(core::has_row_for_each(kFieldShapes, &FieldShapeRow::shape));
 
 // Pixels and width of a map, unless others are given, and legal values of a request.
 inline constexpr std::size_t kUsualMapPixels = 16, kMostMapPixels = 512;  // along a side

@@ -12,6 +12,7 @@
 #include "fits/indenter.h"
 #include "fits/interval.h"
 #include "fits/uncertainty.h"
+#include "physics/rows_of_enum.h"
 
 // Fit of an elastic contact to the approach of a force curve, or of a law of adhesion to both branches (docs/fits.md).
 // Any thread; allocates.
@@ -28,6 +29,7 @@ struct AgainstName {
   std::string_view name;
 };
 inline constexpr std::array kAgainst{AgainstName{Against::Z, "z"}, AgainstName{Against::Tip, "tip"}};
+static_assert(physics::has_row_for_each(kAgainst, &AgainstName::against));
 
 // One point, in the order of recording.
 struct Sample {

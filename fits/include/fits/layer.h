@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "physics/rows_of_enum.h"
+
 namespace afm::fits {
 
 // Contact between a layer and its rigid base.
@@ -19,6 +21,7 @@ struct BaseName {
   std::string_view name;
 };
 inline constexpr std::array kBases{BaseName{Base::Bonded, "bonded"}, BaseName{Base::Sliding, "sliding"}};
+static_assert(physics::has_row_for_each(kBases, &BaseName::base));
 
 enum class Profile {
   Paraboloid,  // strain: sqrt(R d)/h

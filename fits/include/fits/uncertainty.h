@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "physics/rows_of_enum.h"
+
 namespace afm::fits {
 
 // Inputs of a fit that may be wrong.
@@ -27,6 +29,7 @@ inline constexpr std::array kGiven{GivenName{Given::SpringConstant, "spring-cons
                                    GivenName{Given::HalfAngle, "half-angle"},
                                    GivenName{Given::Layer, "layer"},
                                    GivenName{Given::Poisson, "poisson"}};
+static_assert(physics::has_row_for_each(kGiven, &GivenName::given));
 
 // Relative standard deviation.
 struct Uncertainty {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/enumerators.h"
 #include "core/result.h"
 #include "curves/contact_options.h"
 #include "curves/quantity_domain.h"
@@ -48,6 +49,7 @@ struct DirectionName {
 };
 inline constexpr std::array kDirections{DirectionName{"down", physics::SlowDirection::Down},
                                         DirectionName{"up", physics::SlowDirection::Up}};
+static_assert(core::has_row_for_each(kDirections, &DirectionName::direction));
 
 // Legal values of a request.
 inline constexpr std::size_t kFewestPixels = 2;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "physics/curve_point.h"
+#include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -29,6 +30,7 @@ inline constexpr std::array kContactMethods{
     ContactMethodName{ContactMethod::Farthest, "farthest"},
     ContactMethodName{ContactMethod::Gradient, "gradient"},
 };
+static_assert(has_row_for_each(kContactMethods, &ContactMethodName::method));
 
 std::string_view name_of(ContactMethod method);
 

@@ -13,6 +13,7 @@
 #include "physics/contact_point.h"
 #include "physics/curve_point.h"
 #include "physics/force_curve.h"
+#include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -76,6 +77,7 @@ struct BaselineShapeName {
 inline constexpr std::array kBaselineShapes{BaselineShapeName{BaselineShape::Tilted, "tilted"},
                                             BaselineShapeName{BaselineShape::Flat, "flat"},
                                             BaselineShapeName{BaselineShape::Waves, "waves"}};
+static_assert(has_row_for_each(kBaselineShapes, &BaselineShapeName::shape));
 
 // Part of the approach, as distances from its outermost point.
 struct WayRange {

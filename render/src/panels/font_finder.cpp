@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/enumerators.h"
 #include "core/own_folder.h"
 #include "core/whole_file.h"
 
@@ -14,16 +15,18 @@ namespace afm::render {
 namespace {
 
 struct FaceRow {
+  FontFace face;
   const char* file;
   const char* family;
   const char* weight;  // word of fontconfig's patterns
 };
 
-// In the order of FontFace.
-constexpr std::array<FaceRow, kFontFaces> kFaces{{{"Inter-Medium.otf", "Inter", "medium"},
-                                                  {"Inter-SemiBold.otf", "Inter", "semibold"},
-                                                  {"DejaVuSans.ttf", "DejaVu Sans", "regular"},
-                                                  {"DejaVuSans-Bold.ttf", "DejaVu Sans", "bold"}}};
+constexpr std::array<FaceRow, kFontFaces> kFaces{
+    {{FontFace::InterMedium, "Inter-Medium.otf", "Inter", "medium"},
+     {FontFace::InterSemiBold, "Inter-SemiBold.otf", "Inter", "semibold"},
+     {FontFace::DejaVu, "DejaVuSans.ttf", "DejaVu Sans", "regular"},
+     {FontFace::DejaVuBold, "DejaVuSans-Bold.ttf", "DejaVu Sans", "bold"}}};
+static_assert(core::has_row_for_each(kFaces, &FaceRow::face));
 
 const FaceRow& row_of(FontFace face) { return kFaces[static_cast<std::size_t>(face)]; }
 

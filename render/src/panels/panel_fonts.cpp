@@ -6,12 +6,14 @@
 #include <cstdlib>
 #include <new>
 
+#include "core/enumerators.h"
 #include "core/system_packages.h"
 
 namespace afm::render {
 namespace {
 
 struct StyleRow {
+  TextStyle style;
   float height_mm;
   FontFace first;
   FontFace second;  // source of glyphs that the first lacks, or its replacement
@@ -22,15 +24,16 @@ struct StyleRow {
 constexpr float kMostTexelsPerMm = 5.4F;
 constexpr float kCoarser = 0.75F;  // reduction step when the glyphs do not fit into an image
 
-// Styles in the order of TextStyle, at least in medium weight: thin strokes are invisible from the back of a room.
+// At least in medium weight: thin strokes are invisible from the back of a room.
 constexpr std::array<StyleRow, kTextStyles> kStyles{{
-    {30.0F, FontFace::InterMedium, FontFace::DejaVu},
-    {40.0F, FontFace::InterMedium, FontFace::DejaVu},
-    {44.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
-    {60.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
-    {72.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
-    {194.0F, FontFace::InterSemiBold, FontFace::DejaVuBold, true},
+    {TextStyle::Small, 30.0F, FontFace::InterMedium, FontFace::DejaVu},
+    {TextStyle::Body, 40.0F, FontFace::InterMedium, FontFace::DejaVu},
+    {TextStyle::Strong, 44.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
+    {TextStyle::Title, 60.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
+    {TextStyle::Guidance, 72.0F, FontFace::InterSemiBold, FontFace::DejaVuBold},
+    {TextStyle::Figure, 194.0F, FontFace::InterSemiBold, FontFace::DejaVuBold, true},
 }};
+static_assert(core::has_row_for_each(kStyles, &StyleRow::style));
 
 // Latin, Greek, Cyrillic capitals for the labels of keys, punctuation with the typographic minus and dashes, subscripts
 // and superscripts, arrows, mathematical operators.

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "core/enumerators.h"
 #include "gltf_error.h"
 
 namespace afm::scene {
@@ -66,6 +67,7 @@ std::array<std::size_t, kGltfLists> list_sizes(const Json& document) {
                                                        "/nodes",       "/samplers",
                                                        "/scenes",      "/skins",
                                                        "/textures",    "/extensions/KHR_materials_variants/variants"};
+  static_assert(kPaths.back() != nullptr && kGltfLists == core::kEnumerators<GltfList>.size());
   std::array<std::size_t, kGltfLists> sizes{};
   for (std::size_t i = 0; i < kGltfLists; ++i) {
     const Json::json_pointer path(kPaths[i]);

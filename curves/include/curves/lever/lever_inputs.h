@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/enumerators.h"
 #include "curves/angle_units.h"
 #include "curves/quantity_domain.h"
 #include "curves/viscosity_units.h"
@@ -135,6 +136,7 @@ inline const std::array kLeverInputs{
                   "",
                   "angle between lever and sample: also print k/cos^2, for forces along the sample's normal"},
     LeverInputRow{LeverInput::Area, "area", physics::kPlainNumber, {}, "", ""}};
+static_assert(kLeverInputs.size() == core::kEnumerators<LeverInput>.size());
 
 // The table has the order of the enum.
 inline const LeverInputRow& row_of(LeverInput input) { return kLeverInputs[static_cast<std::size_t>(input)]; }

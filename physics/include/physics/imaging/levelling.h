@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "physics/rows_of_enum.h"
+
 namespace afm::physics {
 
 // Correction of a measured topography before it is shown or felt. Plane: removes the sample's tilt. Lines: also the
@@ -24,6 +26,7 @@ inline constexpr std::array kLevellings{
     LevellingText{Levelling::Plane, "plane", "the plane of least squares"},
     LevellingText{Levelling::Lines, "lines",
                   "the median of the differences line by line, then the plane of least squares"}};
+static_assert(has_row_for_each(kLevellings, &LevellingText::levelling));
 
 constexpr const LevellingText& text_of(Levelling levelling) { return kLevellings[static_cast<std::size_t>(levelling)]; }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "physics/imaging/height_grid.h"
+#include "physics/rows_of_enum.h"
 #include "physics/units.h"
 
 namespace afm::physics {
@@ -25,6 +26,7 @@ inline constexpr std::array kTipKinds{
     TipKindName{TipKind::ThreeSidedPyramid, "pyramid-3"},
     TipKindName{TipKind::FourSidedPyramid, "pyramid-4"},
 };
+static_assert(has_row_for_each(kTipKinds, &TipKindName::kind));
 
 std::string_view name_of(TipKind kind);
 
