@@ -10,21 +10,27 @@
 
 namespace afm::python {
 
-// An error of the library on its way to Python: wrong usage becomes ValueError, anything else touchafm.FileError.
+// Where the fault lies if the usage is right: in a file, or in data that the program already has.
+enum class FaultOf { File, Data };
+
+// An error of the library on its way to Python: wrong usage becomes ValueError, a fault of data touchafm.DataError, one
+// of a file touchafm.FileError.
 class Refusal : public std::exception {
  public:
-  explicit Refusal(core::Error error) : error_(std::move(error)) {}
+  explicit Refusal(core::Error error, FaultOf fault = FaultOf::File) : error_(std::move(error)), fault_(fault) {}
   const char* what() const noexcept override { return error_.message.c_str(); }
   const std::string& message() const { return error_.message; }
   core::ErrorCategory category() const { return error_.category; }
+  FaultOf fault() const { return fault_; }
 
  private:
   core::Error error_;
+  FaultOf fault_;
 };
 
 template <class T>
-T value_of(core::Result<T> result) {
-  if (!result) throw Refusal(std::move(result.error()));
+T value_of(core::Result<T> result, FaultOf fault = FaultOf::File) {
+  if (!result) throw Refusal(std::move(result.error()), fault);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 

@@ -48,9 +48,10 @@ std::optional<physics::ContactMethod> method_of(const std::optional<std::string>
 }
 
 AnalysedCurve analyse(const Curve& curve, const std::optional<std::string>& contact_point) {
-  return value_of(long_work([curve, method = method_of(contact_point)](const std::stop_token&) {
+  auto analysis = long_work([curve, method = method_of(contact_point)](const std::stop_token&) {
     return curves::analysed(curve.name, curve.recorded, method);
-  }));
+  });
+  return value_of(std::move(analysis), FaultOf::Data);
 }
 
 void set_numbers(const py::kwargs& given, curves::FitOptions& options) {
@@ -94,12 +95,13 @@ Fit fit(const py::object& given, const std::string& model, const std::optional<s
   const AnalysedCurve curve = py::isinstance<AnalysedCurve>(given) && !contact_point
                                   ? given.cast<AnalysedCurve>()
                                   : analyse(given.cast<Curve>(), contact_point);
-  return value_of(long_work([options, curve](const std::stop_token&) mutable -> core::Result<Fit> {
+  auto fitted = long_work([options, curve](const std::stop_token&) mutable -> core::Result<Fit> {
     if (const auto ready = curves::prepare(options); !ready) return tl::unexpected(ready.error());
     auto found = curves::fit_of(curve, options);
     if (!found) return tl::unexpected(found.error());
     return Fit{std::move(options), std::move(*found)};
-  }));
+  });
+  return value_of(std::move(fitted), FaultOf::Data);
 }
 
 template <class Q>
@@ -141,7 +143,7 @@ void add_analysis(py::module_& module) {
       });
   module.def("analyse", &analyse, py::arg("curve"), py::kw_only(), py::arg("contact_point") = py::none(),
              "Figures of a curve, as touchafm analyse finds them. contact_point: name of a method instead of the\n"
-             "analysis's choice. FileError if the curve cannot be analysed, ValueError for an unknown method.\n"
+             "analysis's choice. DataError if the curve cannot be analysed, ValueError for an unknown method.\n"
              "docs/curves.md defines the figures.");
 }
 
@@ -236,7 +238,7 @@ void add_fit_function(py::module_& module) {
              "Numbers: tip_radius m, half_angle rad, layer m, poisson, atomic_distance m, most_force N, most_depth m.\n"
              "bootstrap: also intervals of E and W by 200 more fits to residuals that are drawn in blocks, against z.\n"
              "uncertainties: relative standard deviations of what is given, {\"spring_constant\": 0.1}.\n"
-             "Raises ValueError as the command refuses its options, FileError for a curve that nothing fits.\n"
+             "Raises ValueError as the command refuses its options, DataError for a curve that nothing fits.\n"
              "docs/fits.md has the equations with their sources; as_dict()[\"source\"] is that of the shape.");
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -47,7 +48,23 @@ curves::Spectrum spectrum_of(const std::pair<GivenArray, GivenArray>& columns, b
   for (py::ssize_t i = 0; i < frequencies.size(); ++i) {
     text += fmt::format("{} {}\n", frequencies.data()[i], densities.data()[i]);
   }
-  return value_of(curves::parse_spectrum(text, "thermal"));
+  return value_of(curves::parse_spectrum(text, "thermal"), FaultOf::Data);
+}
+
+// ValueError with the name of the argument unless it is left out or within `least` to `most`.
+void within(std::string_view name, std::optional<double> given, double least, double most) {
+  if (!given || (*given >= least && *given <= most)) return;
+  refuse(fmt::format("{}: {:g} is not within {:g} to {:g}; leave it out, or give such a number", name, *given, least,
+                     most));
+}
+
+// Where the fault of a failed calibration lies: in arrays that were given, if it remains without the file of a curve.
+FaultOf fault_of(const LeverOptions& options, const core::Error& error) {
+  if (!options.spectrum) return FaultOf::File;
+  LeverOptions without_curve(options);
+  without_curve.curve.clear();
+  const auto again = curves::calibrate(without_curve);
+  return !again && again.error().message == error.message ? FaultOf::Data : FaultOf::File;
 }
 
 void set_inputs(const py::kwargs& given, curves::LeverInputs& inputs) {
@@ -70,8 +87,9 @@ Lever make_lever(const std::optional<Thermal>& thermal, const std::string& unit,
                  std::optional<double> bandwidth, const py::kwargs& given) {
   LeverOptions options;
   if (unit != "m" && unit != "V") refuse(fmt::format("unit: \"{}\" is neither \"m\" nor \"V\"", unit));
-  constexpr int kHighestMode = 10;
-  if (mode < 1 || mode > kHighestMode) refuse(fmt::format("mode: {} is not within 1 to {}", mode, kHighestMode));
+  within("mode", mode, 1, LeverOptions::kHighestMode);
+  within("averages", averages, LeverOptions::kLeastAverages, LeverOptions::kMostAverages);
+  within("bandwidth", bandwidth, LeverOptions::kLeastBandwidthHz, LeverOptions::kMostBandwidthHz);
   if (thermal) {
     options.thermal = "thermal";
     if (const auto* file = std::get_if<std::filesystem::path>(&*thermal)) options.thermal = file->string();
@@ -79,6 +97,10 @@ Lever make_lever(const std::optional<Thermal>& thermal, const std::string& unit,
   }
   options.low_hz = low.value_or(options.low_hz);
   options.high_hz = high.value_or(options.high_hz);
+  if (!(options.low_hz >= 0.0 && options.low_hz < options.high_hz)) {
+    refuse(fmt::format("low, high: {} to {} Hz does not go up from a frequency to a higher one", options.low_hz,
+                       options.high_hz));
+  }
   options.averages = averages;
   options.mode = mode;
   options.sader = sader;
@@ -91,9 +113,9 @@ Lever make_lever(const std::optional<Thermal>& thermal, const std::string& unit,
   if (sensitivity_from) options.curve = sensitivity_from->string();
   options.bandwidth_hz = bandwidth;
   set_inputs(given, options.inputs);
-  LeverCalibration found =
-      value_of(long_work([options](const std::stop_token&) { return curves::calibrate(options); }));
-  return {std::move(options), std::move(found)};
+  auto found = long_work([options](const std::stop_token&) { return curves::calibrate(options); });
+  const FaultOf fault = found ? FaultOf::File : fault_of(options, found.error());
+  return {std::move(options), value_of(std::move(found), fault)};
 }
 
 }  // namespace
@@ -147,7 +169,8 @@ void add_levers(py::module_& module) {
       "sader=True, fluid (\"air\" or \"water\"); sensitivity_from: a curve on a hard sample; bandwidth, Hz.\n"
       "Numbers by the names of the command's options, in SI: sensitivity (m/V), contact_stiffness, temperature,\n"
       "mode_factor, spring_constant, length, width, resonance, quality_factor, density, viscosity, gci, tilt.\n"
-      "Raises ValueError as the command refuses its options, FileError for a spectrum without a resonance.");
+      "Raises ValueError as the command refuses its options, DataError for a spectrum without a resonance,\n"
+      "FileError if it, or the curve, is that of a file.");
 }
 
 }  // namespace afm::python

@@ -55,8 +55,11 @@ TappingRun make_tapping(const Contact& contact, double free_amplitude, std::opti
   const curves::PathOptions path{
       .from = typed(z_from, "m"), .to = typed(z_to, "m"), .step = typed(step, "m"), .speed = typed(speed, "m/s")};
   value_of(curves::check_path(choice, path));
-  return value_of(long_work([setup = value_of(curves::driven_setup(choice, options)), path, numbers = choice.numbers](
-                                const std::stop_token&) { return curves::run_tapping(setup, path, numbers); }));
+  return value_of(long_work([setup = value_of(curves::driven_setup(choice, options)), path,
+                             numbers = choice.numbers](const std::stop_token& stop) {
+    return curves::run_tapping(setup, path, numbers,
+                               [&stop](std::size_t, std::size_t) { return !stop.stop_requested(); });
+  }));
 }
 
 template <class Value>

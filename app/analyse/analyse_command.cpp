@@ -173,8 +173,8 @@ core::Result<physics::WayRange> parse_way_range(const std::string& text) {
   const auto to =
       physics::parse_quantity(colon == std::string::npos ? "" : text.substr(colon + 1), physics::kLengthUnits);
   if (!from.value || !to.value || from.value->si < 0.0 || *from.value >= *to.value) {
-    return wrong_usage(
-        fmt::format("\"{}\" is not a range of distances from the outermost point, such as 0um:1.5um", text));
+    return wrong_usage(fmt::format("\"{}\" is not a range of distances from the outermost point, such as 0um:1.5um{}",
+                                   text, text.find(',') == std::string::npos ? "" : ", with decimal points"));
   }
   return physics::WayRange{*from.value, *to.value};
 }

@@ -23,6 +23,7 @@
 #include "app/analyse/fit_pool.h"
 #include "app/options/standard_output.h"
 #include "core/file_descriptor.h"
+#include "core/freed_memory.h"
 #include "core/interruption.h"
 #include "core/log.h"
 #include "core/printable.h"
@@ -261,6 +262,7 @@ class Progress {
 }  // namespace
 
 core::Result<void> fit_files(const std::vector<std::string>& files, const AnalyseOptions& options, unsigned threads) {
+  core::keep_freed_memory();
   const std::string path = (std::filesystem::path(options.out) / kTable).string();
   auto table = new_table(options.out, path);
   if (!table) return tl::unexpected(table.error());

@@ -29,6 +29,9 @@
 #include "physics/manipulation/pushed_particles.h"
 #include "render/context.h"
 #include "render/renderer.h"
+#include "scene/samples/particle_files.h"
+#include "scene/samples/particle_set.h"
+#include "scene/shared/particle_blocks.h"
 
 namespace afm::app {
 
@@ -52,6 +55,15 @@ struct Figures {
   std::size_t frames = 0;                     // drawn alongside them
   std::string renderer;                       // name of the graphics device
 };
+
+// Those of the set gold-row.
+core::Result<std::unique_ptr<scene::SharedParticles>> gold_particles(const std::string& assets_dir) {
+  const auto path = scene::particle_file("gold-row", assets_dir);
+  if (!path) return tl::unexpected(path.error());
+  const auto set = scene::load_particle_set(*path);
+  if (!set) return tl::unexpected(set.error());
+  return std::make_unique<scene::SharedParticles>(scene::shared_particles(*set));
+}
 
 // Measures the servo next to the real renderer, which draws the wall without a window at full rate.
 core::Result<void> measure_beside_renderer(const CommandContext& context, const HapticsBenchOptions& options,
@@ -82,10 +94,12 @@ core::Result<void> measure_beside_renderer(const CommandContext& context, const 
   // a renderer draws nothing that has not changed
   const auto moving = wall_subject(*stage, kEyeWidth_px, WallMotion::TipAndHead);
   if (!moving) return tl::unexpected(moving.error());
+  const auto gold = gold_particles(context.assets_dir);
+  if (!gold) return tl::unexpected(gold.error());
   auto particles = core::Result<std::vector<ParticleWorkFigure>>{};
   std::atomic<bool> measured = false;
   std::thread ticks([&] {
-    particles = measure_particle_work(options.ticks);
+    particles = measure_particle_work(**gold, options.ticks);
     measured = true;
   });
   for (; !measured; ++figures.frames) renderer->render(moving->frames[figures.frames % moving->frames.size()]);

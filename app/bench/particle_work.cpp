@@ -20,8 +20,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kBarUs = 20.0;  // limit set by the design
-constexpr double kRadiusM = 25e-9;
+constexpr double kBarUs = 20.0;      // limit set by the design
 constexpr double kPitchM = 70e-9;    // pitch of a square lattice with two fifths of its area covered
 constexpr double kHandMPerS = 0.05;  // fastest part of a line
 
@@ -31,12 +30,12 @@ struct Crowd {
   double bar_us = 0;
   double hand_m_per_s = kHandMPerS;
   double pitch_m = kPitchM;  // pitch of the lattice and of the lines
-  double tip_radius_m = 10e-9;
+  double tip_radius_m = 0;   // 0: radius of the set's tip
 };
 
 // On a square lattice, each aside by up to two fifths of the gap.
-std::vector<glm::dvec2> scattered(std::uint32_t count, double pitch_m) {
-  const double most_m = 0.4 * (pitch_m - 2.0 * kRadiusM);
+std::vector<glm::dvec2> scattered(std::uint32_t count, double radius_m, double pitch_m) {
+  const double most_m = 0.4 * (pitch_m - 2.0 * radius_m);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> aside_m(-most_m, most_m);
   const auto columns = static_cast<std::uint32_t>(std::ceil(std::sqrt(count)));
@@ -52,56 +51,45 @@ std::vector<glm::dvec2> scattered(std::uint32_t count, double pitch_m) {
 }
 
 // A hexagon of so many rings around a sphere, 0.1 nm apart.
-std::vector<glm::dvec2> heaped(int rings) {
-  constexpr double kStepM = 2.0 * kRadiusM + 0.1e-9;
+std::vector<glm::dvec2> heaped(int rings, double radius_m) {
+  const double step_m = 2.0 * radius_m + 0.1e-9;
   std::vector<glm::dvec2> places_m;
   for (int row = -rings; row <= rings; ++row) {
     const int columns = 2 * rings + 1 - std::abs(row);
     for (int i = 0; i < columns; ++i) {
-      places_m.emplace_back((i - 0.5 * (columns - 1)) * kStepM, row * 0.5 * std::sqrt(3.0) * kStepM);
+      places_m.emplace_back((i - 0.5 * (columns - 1)) * step_m, row * 0.5 * std::sqrt(3.0) * step_m);
     }
   }
   return places_m;
 }
 
-std::vector<Crowd> crowds() {
+// Spheres of this radius.
+std::vector<Crowd> crowds(double radius_m) {
   std::vector<Crowd> all{{.name = "the law alone", .places_m = {}}};
   for (const std::uint32_t count : {1U, 20U, 200U}) {
     all.push_back({.name = fmt::format("{} particle{}", count, count == 1 ? "" : "s"),
-                   .places_m = scattered(count, kPitchM),
+                   .places_m = scattered(count, radius_m, kPitchM),
                    .bar_us = kBarUs});
   }
-  all.push_back({.name = "200, a faster hand", .places_m = scattered(200, kPitchM), .hand_m_per_s = 2.0 * kHandMPerS});
+  all.push_back(
+      {.name = "200, a faster hand", .places_m = scattered(200, radius_m, kPitchM), .hand_m_per_s = 2.0 * kHandMPerS});
   // so close, under so blunt a tip, that the simulated hand can feel so many
   constexpr double kCloseM = 60e-9;
   all.push_back({.name = "2000 particles",
-                 .places_m = scattered(2000, kCloseM),
+                 .places_m = scattered(2000, radius_m, kCloseM),
                  .bar_us = kBarUs,
                  .pitch_m = kCloseM,
                  .tip_radius_m = 20e-9});
-  all.push_back({.name = "heap of 37", .places_m = heaped(3)});
+  all.push_back({.name = "heap of 37", .places_m = heaped(3, radius_m)});
   return all;
 }
 
-// Lever and gold of assets/particles/gold-row.toml.
-void lay(const Crowd& crowd, scene::SharedParticles& particles) {
-  particles.pusher = {.tip_radius_m = crowd.tip_radius_m,
-                      .half_angle_rad = 0.26,
-                      .tip_friction = 0.3,
-                      .lateral_spring_n_per_m = 10.0,
-                      .normal_spring_n_per_m = 1.0,
-                      .contact_stiffness_n_per_m = 100.0};
+// Tip, lever and first species of the set, in other places.
+void lay(const Crowd& crowd, const scene::SharedParticles& set, scene::SharedParticles& particles) {
+  particles.pusher = set.pusher;
+  if (crowd.tip_radius_m > 0.0) particles.pusher.tip_radius_m = crowd.tip_radius_m;
   particles.species_count = 1;
-  particles.species[0] = {.name = scene::to_name("gold"),
-                          .radius_m = kRadiusM,
-                          .reduced_modulus_pa = 38.7e9,
-                          .work_of_adhesion_j_per_m2 = 0.1,
-                          .shear_strength_pa = 10e6,
-                          .coefficient = 0.3,
-                          .kinetic_ratio = 0.5,
-                          .ageing_s = 0.1,
-                          .rolling_distance_m = 0.3e-9,
-                          .tip_adhesion_j_per_m2 = 0.02};
+  particles.species[0] = set.species[0];
   for (const glm::dvec2& place_m : crowd.places_m) {
     particles.particles[particles.count++] = {.x_m = place_m.x, .y_m = place_m.y};
   }
@@ -167,9 +155,10 @@ class Round {
   glm::dvec3 at_m_ = TimedServo::kLiftedM;
 };
 
-core::Result<ParticleWorkFigure> measure(const Crowd& crowd, double alone_m_per_m, std::size_t ticks) {
+core::Result<ParticleWorkFigure> measure(const Crowd& crowd, const scene::SharedParticles& set, double alone_m_per_m,
+                                         std::size_t ticks) {
   scene::SharedModel model = mica_alone();
-  lay(crowd, model.particles);
+  lay(crowd, set, model.particles);
   const bool among = !crowd.places_m.empty();
   if (!among) model.particles = {};
   ParticleWorkFigure figure{
@@ -199,14 +188,15 @@ core::Result<ParticleWorkFigure> measure(const Crowd& crowd, double alone_m_per_
 
 }  // namespace
 
-core::Result<std::vector<ParticleWorkFigure>> measure_particle_work(std::size_t ticks) {
+core::Result<std::vector<ParticleWorkFigure>> measure_particle_work(const scene::SharedParticles& set,
+                                                                    std::size_t ticks) {
   constexpr double kAloneMPerM = 2e5;  // scale of a few of the particles
   std::vector<ParticleWorkFigure> figures;
-  const std::vector<Crowd> all = crowds();
+  const std::vector<Crowd> all = crowds(set.species[0].radius_m);
   figures.reserve(all.size());
   for (const Crowd& crowd : all) {
     core::log_line(fmt::format("measuring ticks: {} ({} of {})", crowd.name, figures.size() + 1, all.size()));
-    auto figure = measure(crowd, kAloneMPerM, ticks);
+    auto figure = measure(crowd, set, kAloneMPerM, ticks);
     if (!figure) return tl::unexpected(figure.error());
     figures.push_back(std::move(*figure));
   }

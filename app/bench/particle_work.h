@@ -9,6 +9,10 @@
 #include "core/percentiles.h"
 #include "core/result.h"
 
+namespace afm::scene {
+struct SharedParticles;
+}
+
 namespace afm::app {
 
 // Duration of a servo tick while a hand drags the tip through particles, microseconds.
@@ -23,9 +27,10 @@ struct ParticleWorkFigure {
   bool met() const { return p99_bar_us == 0 || us.p99 <= p99_bar_us; }
 };
 
-// Ticks a servo loop with the simulated hand through gold spheres of 50 nm, on two fifths of the area or closer, and
-// through a close heap, line by line, at up to 0.05 m/s of the hand; every round of lines begins with the spheres in
-// their places. The first figure is the law alone.
-core::Result<std::vector<ParticleWorkFigure>> measure_particle_work(std::size_t ticks);
+// Ticks a servo loop with the simulated hand through spheres of 50 nm, the first species of `set`, on two fifths of the
+// area or closer, and through a close heap, line by line, at up to 0.05 m/s of the hand; every round of lines begins
+// with the spheres in their places. The first figure is the law alone.
+core::Result<std::vector<ParticleWorkFigure>> measure_particle_work(const scene::SharedParticles& set,
+                                                                    std::size_t ticks);
 
 }  // namespace afm::app

@@ -33,8 +33,8 @@ using curves::LeverInputRow;
 using curves::LeverInputs;
 using curves::LeverOptions;
 
-constexpr QuantityRange<physics::Frequency> kBandwidths{physics::Frequency(1e-3), physics::Frequency(1e8)};
-constexpr int kHighestMode = 10;
+constexpr QuantityRange<physics::Frequency> kBandwidths{physics::Frequency(LeverOptions::kLeastBandwidthHz),
+                                                        physics::Frequency(LeverOptions::kMostBandwidthHz)};
 
 // Options of the command beyond those of a calibration.
 struct LeverCommand {
@@ -126,10 +126,10 @@ Option add_thermal_options(OptionList& command, LeverOptions& options) {
       .add_option("--averages", options.averages,
                   "with --thermal: number of averaged spectra; default: from their scatter")
       .needs(thermal)
-      .within(1.0, 1e9);
+      .within(LeverOptions::kLeastAverages, LeverOptions::kMostAverages);
   command.add_option("--mode", options.mode, "with --thermal: flexural mode of the resonance")
       .needs(thermal)
-      .within(1, kHighestMode)
+      .within(1, LeverOptions::kHighestMode)
       .show_default();
   return thermal;
 }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/freed_memory.h"
 #include "curves/fitting/curve_fit.h"
 #include "curves/fitting/fitted_curve.h"
 #include "curves/synthetic_curve.h"
@@ -108,6 +109,7 @@ void many(benchmark::State& state, std::size_t threads) {
 }  // namespace
 
 std::vector<BenchmarkCase> fit_benchmarks() {
+  core::keep_freed_memory();  // as the command does
   const auto name = [](std::string_view text) { return std::string(text); };
   constexpr auto kMany = static_cast<double>(kCurves);
   return {{.name = name(kAnalysed), .bar_s = kOneBar_s, .run = analysed},

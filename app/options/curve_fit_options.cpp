@@ -3,12 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
+#include "curves/lever/lever_inputs.h"
 #include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 
@@ -22,13 +23,13 @@ constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(
 }  // namespace
 
 core::Result<double> parse_sensitivity(std::string_view text) {
-  constexpr std::string_view kPerVolt = "/V";
-  const auto parsed = physics::parse_quantity(text.substr(0, text.size() - std::min(text.size(), kPerVolt.size())),
-                                              physics::kLengthUnits);
-  if (!text.ends_with(kPerVolt) || !parsed.value || parsed.value->si <= 0.0) {
-    return core::wrong_usage(fmt::format("\"{}\" is not a deflection per volt, such as 70nm/V", text));
-  }
-  return parsed.value->si;
+  const auto parsed =
+      physics::parse_si(text, "a sensitivity", curves::lever_units::kSensitivities, physics::Infinity::Refused);
+  if (const auto* error = std::get_if<std::string>(&parsed)) return core::wrong_usage(*error);
+  const double m_per_v = std::get<double>(parsed);
+  if (!(m_per_v > 0.0))
+    return core::wrong_usage(fmt::format("\"{}\" is not above 0, as a deflection per volt is", text));
+  return m_per_v;
 }
 
 core::Result<physics::Stiffness> parse_spring_constant(std::string_view text) {

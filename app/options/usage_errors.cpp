@@ -32,6 +32,12 @@ std::vector<std::string> commands_of(const CommandDescription& command) {
 // About words that fit nothing; nothing if there are none.
 std::string about_extra(const TypedCommand& typed) {
   if (typed.left.empty()) return "";
+  const std::vector<std::string> commands = commands_of(typed.command);
+  // options behind it may be those of the command that was meant
+  if (!commands.empty() && !typed.left.front().starts_with("-")) {
+    return fmt::format("{} has no command \"{}\"{}", typed.words, typed.left.front(),
+                       suggestion(typed.left.front(), commands));
+  }
   for (const std::string& word : typed.left) {
     if (!word.starts_with("-")) continue;
     const std::string name = word.substr(0, word.find('='));
@@ -42,10 +48,7 @@ std::string about_extra(const TypedCommand& typed) {
     }
     return fmt::format("{} has no option {}{}", typed.words, name, suggestion(name, names));
   }
-  const std::vector<std::string> commands = commands_of(typed.command);
-  if (commands.empty()) return fmt::format("{} has no use for \"{}\"", typed.words, typed.left.front());
-  return fmt::format("{} has no command \"{}\"{}", typed.words, typed.left.front(),
-                     suggestion(typed.left.front(), commands));
+  return fmt::format("{} has no use for \"{}\"", typed.words, typed.left.front());
 }
 
 // Texts of CLI11 2.1 to 2.4, and what is said instead: $1 and $2 are their parts.

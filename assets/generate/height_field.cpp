@@ -61,30 +61,11 @@ V3 HeightField::normal(std::size_t column, std::size_t row) const {
 Surface top_of(const HeightField& field, const std::function<V3(const V3&)>& color) {
   Surface surface;
   const std::size_t side = field.vertices_a_side();
-  for (std::size_t row = 0; row < side; ++row) {
-    for (std::size_t column = 0; column < side; ++column) {
-      const V3 position = field.position(column, row);
-      surface.add({position, field.normal(column, row), color(position)});
-    }
-  }
-
-  // each square is cut along its more level diagonal, so that a step's edge runs smoothly across the grid
-  for (std::size_t row = 0; row + 1 < side; ++row) {
-    for (std::size_t column = 0; column + 1 < side; ++column) {
-      const auto a = static_cast<std::uint32_t>(row * side + column), b = a + 1;
-      const auto c = static_cast<std::uint32_t>(a + side), d = c + 1;
-      const auto drop = [&](std::uint32_t from, std::uint32_t to) {
-        return std::abs(surface.vertices[from].position.z - surface.vertices[to].position.z);
-      };
-      if (drop(a, d) <= drop(b, c)) {
-        surface.add_triangle(a, b, d);
-        surface.add_triangle(a, d, c);
-      } else {
-        surface.add_triangle(a, b, c);
-        surface.add_triangle(b, d, c);
-      }
-    }
-  }
+  const auto vertex = [&](std::size_t row, std::size_t column) {
+    const V3 position = field.position(column, row);
+    return SurfaceVertex{position, field.normal(column, row), color(position)};
+  };
+  surface.add_grid(side, side, vertex, Cut::Level);
   return surface;
 }
 

@@ -157,8 +157,8 @@ Model journey() {
   add("lever", placed(cantilever(), lever_placement()));
   add("tip", {{std::move(sides), nitride()}});
   MaterialSpec dull = nitride();  // seen from so near, no lamp is reflected in it
+  dull.name = "apex";
   dull.roughness = 0.75;
-  dull.base_color = {0.30, 0.20, 0.08};
   add("apex", {{std::move(apex), dull}});
   add("tip-atoms", tip_atoms());
   return model;

@@ -15,16 +15,25 @@ constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
 constexpr double kRingRatio = 1.07;  // cells about as long as wide before the tip
 constexpr int kHalvings = 6;         // 256 directions, of which half are used before the tip
+constexpr double kFinest = 2 * 3.14159265358979 / 256;
 constexpr double kAtomsReach = 11.5 * kNm, kAtomsSink = 8.0 * kNm;  // from there outwards fewer and fewer are seen
 constexpr double kNearReach = 5.0 * kNm;                            // round and outlined atoms
 constexpr double kBelowAtoms = 0.2 * kNm;                           // depth of the ground below the atoms
 constexpr double kCloseFrom = 7 * kNm, kCloseTo = 45 * kNm;  // from there inwards the ground has its atoms' colour
 constexpr std::int64_t kAtomRows = 52, kAtomColumns = 74;    // enough for the reach
 
+// Sides of the mesh's cell at a place, in units of the scale.
+struct Cell {
+  V2 outwards, across;
+
+  // Change of a quantity with this gradient from one vertex to the next: whatever changes faster has saw teeth.
+  double change(V2 gradient) const { return std::abs(dot(gradient, outwards)) + std::abs(dot(gradient, across)); }
+};
+
 // Visible features at a decade of scale.
 struct Features {
-  double amplitude;                   // in units of the scale
-  double (*pattern)(double, double);  // 0..1 at a position in units of the scale
+  double amplitude;                          // in units of the scale
+  double (*pattern)(V2 at, const Cell& of);  // 0..1 at a position in units of the scale
 };
 
 constexpr std::size_t kDecades = 7;  // from 1 mm to 1 nm
@@ -43,10 +52,15 @@ struct Place {
   double shade = 0;  // mean height in the visible patterns, 0..1
 };
 
+// Angle between two directions of the mesh, in steps of the finest: small before the tip, where the viewer is.
+double every(double y) { return y < -0.7 ? 2 : y < 0.3 ? 4 : 8; }
+
 // The patterns of the scales that are near the place's distance from the contact, faded into each other.
 Place ground_at(const Look& look, double x, double y) {
   const double r = std::sqrt(x * x + y * y);
   const double bare = smooth_step(0.8 * kAtomsReach, 2 * kAtomsReach, r);  // level ground below the atoms
+  const V2 out = V2{x, y} * (1 / std::max(r, 1e-12));
+  const double wide = 0.5 * (every(out.y - 0.1) + every(out.y + 0.1)) * kFinest;
   double sum = 0, weights = 1e-12, height = 0;
   double scale = 1e-3;
   for (std::size_t i = 0; i < 2 * kDecades; ++i, scale *= 0.31622776601683794) {
@@ -56,7 +70,8 @@ Place ground_at(const Look& look, double x, double y) {
     if (weight <= 0) continue;
     const double turn = i % 2 == 0 ? 1.0 : -1.0;  // no two scales show the same
     const auto shift = static_cast<double>(i);
-    const double n = features.pattern(turn * x / scale + 7.3 * shift, y / scale - 3.1 * shift);
+    const Cell cell{V2{turn * out.x, out.y} * (ratio * (kRingRatio - 1)), V2{-turn * out.y, out.x} * (ratio * wide)};
+    const double n = features.pattern({turn * x / scale + 7.3 * shift, y / scale - 3.1 * shift}, cell);
     height -= weight * features.amplitude * scale * (1 - n) * bare;
     sum += weight * n;
     weights += weight;
@@ -70,9 +85,7 @@ Outline seen_around() {
   const Outline whole = circle(1, kHalvings);
   Outline around;
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    const double y = whole[i].position.y;
-    const std::size_t every = y < -0.7 ? 2 : y < 0.3 ? 4 : 8;
-    if (i % every == 0) around.push_back(whole[i]);
+    if (i % static_cast<std::size_t>(every(whole[i].position.y)) == 0) around.push_back(whole[i]);
   }
   return around;
 }
@@ -107,8 +120,8 @@ std::vector<Surface> rings(const Look& look) {
     Surface surface;
     const std::size_t first = cuts[part], count = cuts[part + 1] - first + 1;
     // rows outwards from the far to the near ring, so that the upper side faces up
-    surface.add_grid(count, around.size() + 1,
-                     [&](std::size_t row, std::size_t column) { return vertex(first + count - 1 - row, column); });
+    const auto at = [&](std::size_t row, std::size_t column) { return vertex(first + count - 1 - row, column); };
+    surface.add_grid(count, around.size() + 1, at, Cut::Level);
     result.push_back(std::move(surface));
   }
 
@@ -207,32 +220,41 @@ Model ground(const Look& look, Atoms atoms) {
   return model;
 }
 
-double terraces(double x, double y) {
+// Share of a step's rise passed at `part` of the way from one to the next, where the mesh's cells change that by
+// `change`: steep, but no steeper than two of them can show.
+double risen(double part, double steep, double change) {
+  const double half = std::clamp(0.9 * change, steep, 0.48);
+  return smooth_step(0.5 - half, 0.5 + half, part);
+}
+
+double terraces(V2 at, const Cell& cell) {
   // straight steps that wander, three to two units
-  const double along = 1.5 * (0.93 * y + 0.37 * x) + 0.7 * noise(0.9 * x, 0.9 * y, 12);
+  constexpr V2 kAlong{1.5 * 0.37, 1.5 * 0.93};
+  const double along = dot(kAlong, at) + 0.7 * noise(0.9 * at.x, 0.9 * at.y, 12);
   const double layer = std::floor(along), part = along - layer;
   const double wander = random_unit(static_cast<std::int64_t>(layer), 0, 13);
   const double next = random_unit(static_cast<std::int64_t>(layer) + 1, 0, 13);
-  return mix(wander, next, smooth_step(0.38, 0.62, part));
+  return mix(wander, next, risen(part, 0.12, cell.change(kAlong)));
 }
 
-double grains(double x, double y) {
+double grains(V2 at, const Cell&) {
   const Grains shape{.cell = 0.62, .smallest = 0.5, .radius_low = 0.62, .radius_high = 0.9, .seed = 23};
-  return shape.height(x, y);
+  return shape.height(at.x, at.y);
 }
 
-double speckle(double x, double y) {
+double speckle(V2 at, const Cell&) {
   const Grains shape{.cell = 0.45, .smallest = 0.3, .radius_low = 0.7, .radius_high = 1.05, .seed = 43};
-  return 0.75 * shape.height(x, y) + 0.125 * (1 + noise(0.8 * x, 0.8 * y, 53));
+  return 0.75 * shape.height(at.x, at.y) + 0.125 * (1 + noise(0.8 * at.x, 0.8 * at.y, 53));
 }
 
 // A few long grooves of a polish, in two directions.
-double scratches(double x, double y) {
+double scratches(V2 at, const Cell& cell) {
   constexpr double kHalfWidth = 0.28, kPitch = 1.3, kLength = 7;
   double depth = 0;
   for (int family = 0; family < 2; ++family) {
-    const V2 along = family == 0 ? V2{0.96, 0.28} : V2{-0.6, 0.8};
-    const double u = along.x * x + along.y * y, v = along.x * y - along.y * x;
+    const V2 along = family == 0 ? V2{0.96, 0.28} : V2{-0.6, 0.8}, across{-along.y, along.x};
+    const double u = dot(along, at), v = dot(across, at);
+    const double half_width = std::max(kHalfWidth, 1.8 * cell.change(across));
     const auto lane = static_cast<std::int64_t>(std::floor(v / kPitch));
     for (std::int64_t k = lane - 1; k <= lane + 1; ++k) {
       const double part = u / kLength + random_unit(k, family, 71), piece = std::floor(part);
@@ -240,25 +262,28 @@ double scratches(double x, double y) {
       if (random_unit(k, number, 72 + static_cast<std::uint32_t>(family)) < 0.45) continue;
       const double middle = (static_cast<double>(k) + 0.2 + 0.6 * random_unit(k, number, 74)) * kPitch;
       const double ends = smooth_step(0, 0.12, part - piece) * (1 - smooth_step(0.88, 1, part - piece));
-      depth = std::max(depth, ends * (1 - smooth_step(0, kHalfWidth, std::abs(v - middle))));
+      depth = std::max(depth, ends * (1 - smooth_step(0, half_width, std::abs(v - middle))));
     }
   }
-  return 1 - 0.75 * depth - 0.12 * (1 - noise(0.4 * x, 0.4 * y, 75)) * 0.5;
+  return 1 - 0.75 * depth - 0.12 * (1 - noise(0.4 * at.x, 0.4 * at.y, 75)) * 0.5;
 }
 
 // Round hillocks, few and of many sizes, on a level film.
-double hillocks(double x, double y) {
+double hillocks(V2 at, const Cell& cell) {
   const Grains shape{.cell = 1.1, .smallest = 0.05, .radius_low = 0.25, .radius_high = 0.55, .seed = 63};
-  return 0.35 + 0.65 * shape.height(x, y);
+  constexpr double kSteepness = 3 / (1.1 * 0.4);  // at the foot of a mean one, so high a foot is rounded as cells show
+  const double height = shape.height(at.x, at.y);
+  const double foot = std::min(0.9, kSteepness * 0.5 * (cell.change({1, 0}) + cell.change({0, 1})));
+  return 0.35 + 0.65 * height * smooth_step(0, std::max(foot, 1e-3), height);
 }
 
 // Terraces one above the other, with steps that wander little.
-double steps(double x, double y) {
-  const double along = 0.8 * (0.45 * y - 0.9 * x) + 0.35 * noise(0.5 * x, 0.5 * y, 17);
+double steps(V2 at, const Cell& cell) {
+  constexpr V2 kAlong{-0.8 * 0.9, 0.8 * 0.45};
+  const double along = dot(kAlong, at) + 0.35 * noise(0.5 * at.x, 0.5 * at.y, 17);
   const double layer = std::floor(along), part = along - layer;
   const auto height = [](double of) { return 0.25 * (of - 4 * std::floor(of / 4)); };
-  const double low = height(layer), high = height(layer + 1);
-  return mix(low, high, smooth_step(0.44, 0.56, part));
+  return mix(height(layer), height(layer + 1), risen(part, 0.06, cell.change(kAlong)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 
 namespace afm::generate {
 namespace {
@@ -124,12 +125,9 @@ void use_extension(Writer& writer, const char* name) {
   if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
 }
 
-// Materials differ by name.
+// Materials are identified by name; two different ones of one name are refused.
 std::size_t add_material(Writer& writer, const MaterialSpec& spec) {
   Json& materials = writer.root["materials"];
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i]["name"] == spec.name) return i;
-  }
   Json material{{"name", spec.name}};
   const V3 base = spec.base_color;
   material["pbrMetallicRoughness"] = {{"baseColorFactor", {base.x, base.y, base.z, spec.alpha}},
@@ -144,6 +142,12 @@ std::size_t add_material(Writer& writer, const MaterialSpec& spec) {
   if (spec.unlit) {
     use_extension(writer, "KHR_materials_unlit");
     material["extensions"]["KHR_materials_unlit"] = Json::object();
+  }
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i] == material) return i;
+    if (materials[i]["name"] == spec.name) {
+      throw std::invalid_argument("two materials are named \"" + spec.name + "\"; give one another name");
+    }
   }
   materials.push_back(material);
   return materials.size() - 1;

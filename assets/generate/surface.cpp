@@ -1,9 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface.h"
 
+#include <cmath>
 #include <utility>
 
 namespace afm::generate {
+
+namespace {
+
+// Two triangles between the vertices a and b of one row, c and d of the next.
+void add_quad(Surface& surface, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d, Cut cut) {
+  const auto drop = [&](std::uint32_t from, std::uint32_t to) {
+    return std::abs(surface.vertices[from].position.z - surface.vertices[to].position.z);
+  };
+  if (cut == Cut::Alike || drop(a, d) <= drop(b, c)) {
+    surface.add_triangle(a, b, d);
+    surface.add_triangle(a, d, c);
+  } else {
+    surface.add_triangle(a, b, c);
+    surface.add_triangle(b, d, c);
+  }
+}
+
+}  // namespace
 
 std::uint32_t Surface::add(const SurfaceVertex& vertex) {
   vertices.push_back(vertex);
@@ -17,7 +36,7 @@ void Surface::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 }
 
 void Surface::add_grid(std::size_t rows, std::size_t columns,
-                       const std::function<SurfaceVertex(std::size_t, std::size_t)>& at) {
+                       const std::function<SurfaceVertex(std::size_t, std::size_t)>& at, Cut cut) {
   const auto first = static_cast<std::uint32_t>(vertices.size());
   for (std::size_t row = 0; row < rows; ++row) {
     for (std::size_t column = 0; column < columns; ++column) add(at(row, column));
@@ -25,9 +44,8 @@ void Surface::add_grid(std::size_t rows, std::size_t columns,
   const auto width = static_cast<std::uint32_t>(columns);
   for (std::uint32_t row = 0; row + 1 < rows; ++row) {
     for (std::uint32_t column = 0; column + 1 < width; ++column) {
-      const std::uint32_t a = first + row * width + column, b = a + 1, c = a + width, d = c + 1;
-      add_triangle(a, b, d);
-      add_triangle(a, d, c);
+      const std::uint32_t a = first + row * width + column, c = a + width;
+      add_quad(*this, a, a + 1, c, c + 1, cut);
     }
   }
 }

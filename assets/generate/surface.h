@@ -17,6 +17,9 @@ struct SurfaceVertex {
   double alpha = 1;   // the same
 };
 
+// Diagonals of quads: all alike, or the more level one of each, so that the edge of a step runs smoothly across them.
+enum class Cut { Alike, Level };
+
 struct Surface {
   std::vector<SurfaceVertex> vertices;
   std::vector<std::uint32_t> indices;
@@ -26,7 +29,7 @@ struct Surface {
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   // Quads between rows x columns vertices; the outside is where (next column - here) x (next row - here) points.
   void add_grid(std::size_t rows, std::size_t columns,
-                const std::function<SurfaceVertex(std::size_t row, std::size_t column)>& at);
+                const std::function<SurfaceVertex(std::size_t row, std::size_t column)>& at, Cut cut = Cut::Alike);
   void paint(V3 color);
 };
 

@@ -20,7 +20,7 @@ Handle open_in_memory(std::string_view bytes) {
   // HDF5 copies the image
   must_do(H5Pset_file_image(access.get(), const_cast<char*>(bytes.data()), bytes.size()), "take the file");
   Handle file(H5Fopen("file", H5F_ACC_RDONLY, access.get()));
-  if (!file.is_open()) throw CurveError("it is damaged or cut short");
+  if (!file.is_open()) throw CurveError(std::string("it is damaged or cut short; ") + kCopyAgain);
   return file;
 }
 

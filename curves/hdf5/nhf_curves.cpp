@@ -141,7 +141,7 @@ std::vector<double> NhfCurves::values_of(const Channel& channel, const Extent& e
   const Handle space = must(H5Dget_space(channel.data.get()), "read a space");
   const hssize_t all = H5Sget_simple_extent_npoints(space.get());
   if (H5Sget_simple_extent_ndims(space.get()) != 1 || all < 0 || first + count > static_cast<hsize_t>(all)) {
-    throw CurveError(fmt::format("it is cut short: {} points of its curves are there", all));
+    throw CurveError(cut_short(fmt::format("{} points of its curves are there", all)));
   }
   std::vector<double> values(static_cast<std::size_t>(count));
   if (count == 0) return values;

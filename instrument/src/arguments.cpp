@@ -43,6 +43,14 @@ std::optional<std::string> Arguments::text(const char* name, std::size_t most_le
   return value->get<std::string>();
 }
 
+bool Arguments::flag(const char* name) {
+  const nlohmann::ordered_json* value = member(name);
+  if (value != nullptr && !value->is_boolean()) {
+    throw RefusedRequest(fmt::format("\"{}\": give true or false", name));
+  }
+  return value != nullptr && value->get<bool>();
+}
+
 bool Arguments::packs_arrays() const {
   const auto found = object_.find("arrays");
   if (found == object_.end() || found->is_null()) return false;

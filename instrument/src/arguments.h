@@ -22,6 +22,7 @@ class Arguments {
   }
   std::size_t count_or(const char* name, std::size_t usual, std::size_t smallest, std::size_t largest);
   std::optional<std::string> text(const char* name, std::size_t most_letters);
+  bool flag(const char* name);  // false without it
   // Null if the request does not have it.
   const nlohmann::ordered_json* member(const char* name);
 

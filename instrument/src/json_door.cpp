@@ -153,13 +153,28 @@ struct JsonDoor::Verbs {
     return answer;
   }
 
-  static Json tapping_curve(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
+  // The next request, if all of it has come meanwhile, is to stop.
+  static bool is_stopped(const JsonDoor& door) {
+    constexpr std::size_t kLongestStop = 200;
+    const std::string_view next = door.sent_meanwhile();
+    const auto size = door.request_size(next);
+    if (!size || *size > kLongestStop) return false;
+    const Json request = Json::parse(next.substr(0, *size), nullptr, false);
+    return request.is_object() && request.value("do", Json()) == "stop";
+  }
+
+  static Json tapping_curve(JsonDoor& door, Arguments& arguments, const Json& id, const Send& send) {
     const auto from = arguments.number("z_from_m", -kMostPlaceM, kMostPlaceM);
     const auto to = arguments.number("z_to_m", -kMostPlaceM, kMostPlaceM);
     const std::size_t points = arguments.count_or("points", 400, 2, SimulatedInstrument::kMostCurvePoints);
+    const bool shows_progress = arguments.flag("progress");
     const AnswerArrays arrays(arguments);
     arguments.finish();
-    const curves::TappingRun run = value_of(door.instrument_.tapping_curve(from, to, points));
+    const auto watch = [&](std::size_t done, std::size_t all) {
+      if (shows_progress && !send(Json{{"id", id}, {"done", done}, {"of", all}}.dump() + "\n")) return false;
+      return !is_stopped(door);
+    };
+    const curves::TappingRun run = value_of(door.instrument_.tapping_curve(from, to, points, watch));
     const auto& rows = run.curve.points;
     using physics::TapPoint;
     Json answer{{"z_m", arrays.of(rows, [](const TapPoint& row) { return row.z.si; })},
@@ -172,17 +187,7 @@ struct JsonDoor::Verbs {
     return answer;
   }
 
-  // The next request, if all of it has come meanwhile, is to stop.
-  static bool is_stopped(const JsonDoor& door) {
-    constexpr std::size_t kLongestStop = 200;
-    const std::string_view next = door.sent_meanwhile();
-    const auto size = door.request_size(next);
-    if (!size || *size > kLongestStop) return false;
-    const Json request = Json::parse(next.substr(0, *size), nullptr, false);
-    return request.is_object() && request.value("do", Json()) == "stop";
-  }
-
-  // A stopped scan has said so in its own answer.
+  // A stopped scan or tapping curve has said so in its own answer.
   static Json stop(JsonDoor&, Arguments& arguments, const Json&, const Send&) {
     arguments.finish();
     return Json::object();
@@ -281,10 +286,10 @@ constexpr std::array<JsonDoor::Verbs::Row, 16> JsonDoor::Verbs::kRows{{
     {"set_z", "moves the lever's base without feedback: \"z_m\", \"speed_m_per_s\"", &Verbs::set_z},
     {"wait", "lets simulated time pass: \"time_s\"", &Verbs::wait},
     {"curve", "a force curve: \"z_from_m\", \"z_to_m\", \"points\", \"speed_m_per_s\"", &Verbs::curve},
-    {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\"",
+    {"tapping_curve", "amplitude and phase over the height: \"z_from_m\", \"z_to_m\", \"points\", \"progress\"",
      &Verbs::tapping_curve},
     {"scan", "an image around the tip, line by line", &Verbs::scan},
-    {"stop", "ends a scan that runs after its line", &Verbs::stop},
+    {"stop", "ends a scan after its line, or a tapping curve", &Verbs::stop},
     {"thermal", "spectrum of the free lever: \"points\", \"most_Hz\", \"averages\"", &Verbs::thermal},
     {"truth", "what no microscope shows", &Verbs::truth},
     {"save", "writes the newest image or curve: \"file\"", &Verbs::save},

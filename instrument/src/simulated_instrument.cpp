@@ -255,14 +255,14 @@ core::Result<std::optional<physics::TappingDetector>> SimulatedInstrument::detec
 
 core::Result<curves::TappingRun> SimulatedInstrument::tapping_curve(const std::optional<double>& z_from_m,
                                                                     const std::optional<double>& z_to_m,
-                                                                    std::size_t points) {
+                                                                    std::size_t points, const curves::TapWatch& watch) {
   const auto swung = driven();
   if (!swung) return tl::unexpected(swung.error());
   const curves::UsualTapPath usual = curves::usual_tap_path(physics::Length(settings_.free_amplitude_m));
   const double from_m = z_from_m.value_or(usual.from.si), to_m = z_to_m.value_or(usual.to.si);
   curves::PathOptions path = path_of(from_m, to_m);
   if (from_m > to_m) path.step = metres((from_m - to_m) / static_cast<double>(points - 1) * (1.0 + 1e-12));
-  return curves::run_tapping(swung->setup, path, swung->numbers);
+  return curves::run_tapping(swung->setup, path, swung->numbers, watch);
 }
 
 core::Result<void> SimulatedInstrument::after_line(const physics::ScanLine& line, physics::Scanner& scanner) {

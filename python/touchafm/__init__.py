@@ -4,8 +4,8 @@
 Every number is in SI, and every force on the tip is positive away from the sample. Results are immutable; their arrays are
 read-only views or copies in float64. as_dict() of a result is the JSON that the command touchafm prints, to the last digit.
 
-An argument that the command would refuse raises ValueError with the command's words. A file that cannot be read, understood
-or written raises FileError, an OSError. Long work releases Python's lock, and Ctrl-C ends it within 0.2 s.
+An argument that the command would refuse raises ValueError with the command's words, and a curve or spectrum in which nothing
+is found DataError, a ValueError. A file that cannot be read, understood or written raises FileError, an OSError. Long work releases Python's lock, and Ctrl-C ends it within 0.2 s.
 
 touchafm.serve, imported by itself, controls a simulated microscope; touchafm.maps fits all curves of a map.
 """
@@ -15,6 +15,7 @@ from ._core import (
     Contact,
     Curve,
     Cycle,
+    DataError,
     Event,
     Figures,
     FileError,
@@ -54,6 +55,7 @@ __all__ = [
     "Contact",
     "Curve",
     "Cycle",
+    "DataError",
     "Event",
     "Figures",
     "FileError",

@@ -16,7 +16,7 @@ from typing import Any, Callable, Optional
 import numpy as np
 from numpy.typing import NDArray
 
-from . import Analysis, Curve, Fit, FileError, analyse
+from . import Analysis, Curve, DataError, Fit, analyse
 from . import fit as fit_curve
 
 __all__ = ["FitMap", "fit"]
@@ -46,7 +46,7 @@ def _found(curve: Curve, settings: dict[str, Any]) -> _Found:
     try:
         analysis = analyse(curve)
         return _Found(fit_curve(analysis, **settings), analysis, "")
-    except FileError as error:
+    except DataError as error:
         return _Found(None, analysis, str(error))
 
 

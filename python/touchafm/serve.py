@@ -32,6 +32,7 @@ __all__ = ["Client", "Refused", "connect", "start"]
 _Floats = NDArray[np.float64]
 _Path = Union[str, "os.PathLike[str]"]
 _OnLine = Callable[[dict[str, Any]], Any]
+_OnProgress = Callable[[int, int], Any]
 
 _CHANNELS = {
     "height_m": "Height",
@@ -107,7 +108,7 @@ class Client:
 
     def request(self, do: str, *, on_line: Optional[_OnLine] = None, **members: Any) -> dict[str, Any]:
         """The answer to any request as a dict, whose lists of numbers are arrays: they travel as bytes, which takes less time.
-        on_line is called with each line of a scan as it comes; False stops the scan."""
+        on_line is called with each line of a scan, or of a tapping curve's progress, as it comes; False stops them."""
         if self._socket.fileno() < 0:
             raise ConnectionError(f"cannot {do}: this client is closed; connect() or start() another")
         if self._packs is None and do != "hello":
@@ -123,12 +124,12 @@ class Client:
             self._socket.sendall(text.encode() + b"\n")
         stopping = False
         try:
-            while "line" in (answer := self._answer(do)):
+            while "ok" not in (answer := self._answer(do)):
                 if on_line is not None and on_line(answer) is False and not stopping:
                     stopping = True
                     self._stop()
         except BaseException:
-            if do == "scan" and not stopping:
+            if do in ("scan", "tapping_curve") and not stopping:
                 self._stop()
             raise
         if answer["ok"]:
@@ -200,11 +201,18 @@ class Client:
             "spring_constant": answer["spring_constant_N_per_m"],
         }
 
-    def tapping_curve(self, *, z_from: Optional[float] = None, z_to: Optional[float] = None,
-                      points: Optional[int] = None) -> dict[str, Any]:
+    def tapping_curve(self, *, z_from: Optional[float] = None, z_to: Optional[float] = None, points: Optional[int] = None,
+                      on_progress: Optional[_OnProgress] = None) -> dict[str, Any]:
         """Amplitude and phase from z_from down to z_to, m, and back: "z" and "amplitude" in m, "phase" in rad, "approach", and the
-        command's "figures"."""
-        answer = self.request("tapping_curve", z_from_m=z_from, z_to_m=z_to, points=points)
+        command's "figures".
+
+        on_progress is called with the number of heights that are done and of all, which begins again if the swing has to be integrated
+        directly; if it returns False the curve ends, and Refused is raised."""
+
+        def report(line: dict[str, Any]) -> Any:
+            return on_progress is None or on_progress(line["done"], line["of"])
+
+        answer = self.request("tapping_curve", on_line=report, z_from_m=z_from, z_to_m=z_to, points=points, progress=True)
         z = np.array(answer["z_m"])
         return {
             "z": z,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Force maps of Asylum's .ardf, from files that are put together here as published readers describe them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -267,12 +268,25 @@ TEST(ArdfMap, IsRefusedInOneLineIfItIsNone) {
   EXPECT_THAT(refusal(damaged, here(kCurves - 1)), HasSubstr("its section \"VDAT\" is damaged"));
 }
 
-TEST(ArdfMap, RefusesEveryCut) {
+TEST(ArdfMap, ThatIsCutHasTheCurvesThatAreThere) {
   const std::string whole = file_of({}).bytes;
-  for (std::size_t size = 0; size < whole.size(); size += size < 2000 ? 1 : 7) {
-    const auto cut = parse_curve(std::string_view(whole).substr(0, size), "cut.ardf", here(kCurves - 1));
-    EXPECT_FALSE(cut.has_value()) << size;
+  std::size_t most = 0;
+  for (std::size_t size = 13; size < whole.size(); size += size < 2000 ? 1 : 7) {
+    const std::string cut = whole.substr(0, size);
+    std::size_t there = 0;
+    while (there < kCurves && parse_curve(cut, "cut.ardf", here(there))) ++there;
+    ASSERT_LT(there, kCurves) << size;
+    ASSERT_GE(there, most) << size << ": more of the file has fewer curves";
+    most = there;
+    const auto next = parse_curve(cut, "cut.ardf", here(there));
+    EXPECT_THAT(next.error().message, HasSubstr("it is cut short")) << size;
+    EXPECT_THAT(next.error().message, HasSubstr("copy the file again from where it was saved"));
+    if (there == 0) continue;
+    const std::string said = fmt::format("it has {} of at most {} curves", there, kCurves);
+    EXPECT_THAT(next.error().message, HasSubstr(said));
+    EXPECT_THAT(parse_curve(cut, "cut.ardf", here(0))->metadata.remarks, Contains(HasSubstr(said)));
   }
+  EXPECT_EQ(most, kCurves - 1);
 }
 
 // Numbers of any size in any place, with the right checksum.

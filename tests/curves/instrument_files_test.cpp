@@ -238,8 +238,12 @@ TEST(JpkFile, TakesTheStageOfACellHesionWithoutAnotherHeight) {
 
 TEST(JpkFile, RefusesEveryCutAndAnEntryThatClaimsToBeHuge) {
   const std::string bytes = test::stored_zip(jpk_entries());
+  constexpr std::size_t kEnd = 22;  // size of the archive's last record
   for (std::size_t size = 4; size < bytes.size(); size += 97) {
-    EXPECT_THAT(error_here(std::string_view(bytes).substr(0, size)), HasSubstr("archive is damaged"));
+    const std::string error = error_here(std::string_view(bytes).substr(0, size));
+    EXPECT_THAT(error, HasSubstr("; copy the file again from where it was saved")) << size;
+    if (size + kEnd > bytes.size()) continue;
+    EXPECT_THAT(error, HasSubstr("it is cut short: its zip archive has no end")) << size;
   }
   EXPECT_THAT(error_of(test::stored_zip(jpk_entries(), 0xF0000000U)), HasSubstr("in its archive is"));
 }

@@ -251,8 +251,18 @@ TEST(NanoscopeCurve, RefusesEveryCut) {
     if (size > 1200 && size < 4000) continue;  // zeros
     const auto cut = parse_curve(std::string_view(whole).substr(0, size), "cut.spm",
                                  {.spring_constant = {}, .sensitivity_m_per_v = {}, .index = 0, .confined = false});
-    EXPECT_FALSE(cut.has_value()) << size;
+    ASSERT_FALSE(cut.has_value()) << size;
+    if (size < 40) continue;
+    EXPECT_THAT(cut.error().message, HasSubstr("it is cut short")) << size;
+    EXPECT_THAT(cut.error().message, HasSubstr("copy the file again from where it was saved")) << size;
   }
+}
+
+TEST(NanoscopeCurve, WithDecimalCommasIsRefused) {
+  Ramp german = usual();
+  german.spring = "\\Spring Constant: 1,32\r\n";
+  EXPECT_THAT(refusal(file_of(german)),
+              HasSubstr("a number of its header is \"1,32\", with a decimal comma; write a decimal point"));
 }
 
 }  // namespace nanoscope_curves_test

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -21,6 +22,8 @@
 namespace afm::curves {
 namespace nanoscope_volumes_test {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -338,14 +341,58 @@ TEST(NanoscopeVolume, SurvivesAnyChangeOfItsHeader) {
   }
 }
 
-TEST(NanoscopeVolume, RefusesEveryCut) {
+core::Result<RecordedCurve> read_cut(const std::string& whole, std::size_t size, std::size_t index) {
+  return parse_curve(std::string_view(whole).substr(0, size), "cut.spm",
+                     {.spring_constant = {}, .sensitivity_m_per_v = {}, .index = index, .confined = false});
+}
+
+constexpr const char* kCopyIt = "; copy the file again from where it was saved";
+
+TEST(NanoscopeVolume, CutInItsHeaderIsRefused) {
   const std::string whole = file_of({});
-  for (std::size_t size = 0; size < whole.size(); ++size) {
-    if (size > 1700 && size < 4000) continue;  // zeros
-    const auto cut = parse_curve(std::string_view(whole).substr(0, size), "cut.spm",
-                                 {.spring_constant = {}, .sensitivity_m_per_v = {}, .index = 0, .confined = false});
-    EXPECT_FALSE(cut.has_value()) << size;
+  for (std::size_t size = 40; size < whole.find("\\*File list end"); ++size) {
+    const auto cut = read_cut(whole, size, 0);
+    ASSERT_FALSE(cut.has_value()) << size;
+    EXPECT_THAT(cut.error().message, AllOf(HasSubstr("it is cut short"), HasSubstr(kCopyIt)));
   }
+}
+
+// The image lies behind all curves, one of two channels behind the other.
+TEST(NanoscopeVolume, ThatIsCutHasItsFirstCurves) {
+  Volume sensed;
+  sensed.sensor_scale = "V [Sens. ZsensSens] (0.0001 V/LSB) 6.5536 V";
+  for (const Volume& volume : {Volume(), sensed}) {
+    constexpr std::size_t kCurve = 2 * kPoints * sizeof(std::int16_t);
+    const std::string whole = file_of(volume);
+    const std::size_t first = volume.sensor_scale.empty() ? 4096 : 4096 + kCurves * kCurve;  // data of the last channel
+    for (std::size_t size = 4090; size < whole.size(); size += 3) {
+      const std::size_t there = size < first ? 0 : std::min(kCurves, (size - first) / kCurve);
+      const std::string said = fmt::format("it is cut short: it has {} of its {} curves{}", there, kCurves, kCopyIt);
+      for (const std::size_t index : {std::size_t{0}, std::min(there, kCurves - 1)}) {
+        const auto cut = read_cut(whole, size, index);
+        ASSERT_EQ(cut.has_value(), index < there) << size << ", " << index;
+        if (!cut) {
+          EXPECT_THAT(cut.error().message, HasSubstr(said));
+          continue;
+        }
+        EXPECT_EQ(cut->points[kPoints - 1].force.si, read(volume, index).points[kPoints - 1].force.si);
+        EXPECT_THAT(cut->metadata.remarks,
+                    Contains(HasSubstr("the heights of its curves are unknown: it is cut short")));
+        if (there < kCurves) {
+          EXPECT_THAT(cut->metadata.remarks, Contains(said));
+        }
+      }
+    }
+  }
+}
+
+TEST(NanoscopeVolume, WithDecimalCommasIsRefused) {
+  Volume german;
+  german.image_size = "3,5 2,5 ~m";
+  EXPECT_THAT(read(german, 0).metadata.remarks, Contains(HasSubstr("is \"3,5 2,5 ~m\", with a decimal comma")));
+  german.sensor_scale = "V [Sens. ZsensSens] (0,0001 V/LSB) 6,5536 V";
+  EXPECT_THAT(refusal(german),
+              HasSubstr("a number of its header is \"0,0001 V/LSB\", with a decimal comma; write a decimal point"));
 }
 
 }  // namespace nanoscope_volumes_test

@@ -123,6 +123,36 @@ TEST(NanosurfCurve, EndsWithTheLastRecordedPoint) {
   EXPECT_NEAR(read(file, 1).points[17].force.si, force_at(1, 17) * kForceStep_n, 1e-18);
 }
 
+TEST(NanosurfCurve, OfACutFileIsReadIfItIsWhole) {
+  const std::string whole = nanosurf_file(usual(), kSpring);
+  constexpr std::size_t kLine = kPoints * sizeof(std::int16_t), kChannel = kLine * kCurves;
+  for (std::size_t missing = 1; missing < 4 * kChannel; missing += 7) {
+    const std::string cut = whole.substr(0, whole.size() - missing);
+    const std::size_t there = missing > kChannel ? 0 : (kChannel - missing) / kLine;
+    const std::string said = fmt::format(
+        "it is cut short: it has {} of its {} curves; copy the file again from where it was saved", there, kCurves);
+    for (const std::size_t index : {std::size_t{0}, there}) {
+      const auto curve = parse(cut, index);
+      ASSERT_EQ(curve.has_value(), index < there) << missing;
+      if (curve) {
+        EXPECT_EQ(curve->points.size(), 2U * kPoints);
+        EXPECT_THAT(curve->metadata.remarks, Contains(said));
+      } else {
+        EXPECT_THAT(curve.error().message, HasSubstr(said));
+      }
+    }
+  }
+}
+
+TEST(NanosurfCurve, WithDecimalCommasIsRefused) {
+  auto channels = usual();
+  channels[0].range = "1,25e-6";
+  EXPECT_THAT(refusal(nanosurf_file(channels, kSpring)),
+              HasSubstr("its \"Dim2Range\" is \"1,25e-6\", with a decimal comma; write a decimal point"));
+  EXPECT_THAT(refusal(nanosurf_file(usual(), "\r\n[DataSet\\Calibration\\Cantilever]\r\nProp0=D[0,2]*[N/m]\r\n")),
+              HasSubstr("its spring constant is \"0,2\", with a decimal comma"));
+}
+
 TEST(NanosurfCurve, SaysThatTheTipRested) {
   auto channels = usual();
   channels.push_back(channel("Spec fwd pause", "Deflection", "N", force_at));
@@ -203,7 +233,7 @@ TEST(NanosurfCurve, IsRefusedInOneLineIfItIsNotUnderstood) {
   EXPECT_THAT(refusal(nanosurf_file(usual("V"), kHead)), HasSubstr("give --spring-constant"));
   const std::string whole = nanosurf_file(usual(), kSpring);
   for (std::size_t size = 0; size < whole.size(); size += size < 3000 ? 1 : 7) {
-    EXPECT_FALSE(parse(whole.substr(0, size))) << size;
+    EXPECT_FALSE(parse(whole.substr(0, size), kCurves - 1)) << size;
   }
 }
 

@@ -112,6 +112,19 @@ TEST(ForcePanel, ThePresentSamplesCurveIsThereAlone) {
   EXPECT_EQ(frames.build(moment).panels.force.content.curves.size(), felt.size());
 }
 
+// Where large letters leave no room, the last labels are left out.
+TEST(ForcePanel, LabelsWithoutAPlaceAreLeftOut) {
+  const LabelBox plot{{0.0F, 0.0F}, {400.0F, 120.0F}};
+  const std::vector<MarkerLabel> same(8, {PlotMarker::Kind::VerticalLine, 200.0F, {180.0F, kLine}});
+  std::vector<LabelBox> boxes;
+  render::place_labels(same, plot, boxes);
+  ASSERT_EQ(boxes.size(), same.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_EQ(boxes[i].empty(), i >= 6) << i;  // three rows on both sides
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(render::overlap(boxes[i], boxes[k])) << i << " and " << k;
+  }
+}
+
 TEST(ForcePanel, LabelsOfOnePlaceMakeRoomForEachOther) {
   const std::vector<MarkerLabel> same(5, {PlotMarker::Kind::VerticalLine, 400.0F, {180.0F, kLine}});
   std::vector<LabelBox> boxes;

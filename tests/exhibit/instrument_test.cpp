@@ -136,6 +136,17 @@ TEST_F(InstrumentTest, LaserAndPhotodiodeAreSeenBelowTheBannerAndBetweenThePanel
   }
 }
 
+// At the height of the contact, the empty stage covered the panels' lower corners.
+TEST_F(InstrumentTest, TheEmptyStageIsWhereItIsBelowASample) {
+  const auto stage_m = [&](std::optional<std::size_t> material) {
+    render::FrameState state;
+    scene_.update({.material = material}, state);
+    return glm::dvec3(state.room_from_node[node("stage/stage")][3]);
+  };
+  EXPECT_EQ(stage_m(std::nullopt), stage_m(0));
+  EXPECT_LT(stage_m(std::nullopt).y, scene_.contact_m().y - 0.1 * scene_.unit_m());
+}
+
 TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample) {
   const double tip_half_width = [&] {
     double widest = 0.0;

@@ -83,7 +83,7 @@ TEST_F(JourneyTest, NamesAKnownThingOfTheScaleBesideTheTip) {
       EXPECT_TRUE(beside || above) << thing << ": " << other.text;
     }
   }
-  for (const double orders : {0.0, 2.0, 4.0, 5.6, 8.0}) EXPECT_EQ(frame(orders).labels.size(), 11U) << orders;
+  for (const double orders : {0.0, 2.0, 4.0, 5.6, 7.76}) EXPECT_EQ(frame(orders).labels.size(), 11U) << orders;
 }
 
 TEST_F(JourneyTest, MarksItsRungOnALadderOfTenPowersAndNamesTheGap) {
@@ -104,6 +104,48 @@ TEST_F(JourneyTest, MarksItsRungOnALadderOfTenPowersAndNamesTheGap) {
   };
   EXPECT_FALSE(named(8.0));
   EXPECT_TRUE(named(9.0));
+}
+
+// The name of the gap was beside the tip and pointed at nothing.
+TEST_F(JourneyTest, DrawsTheGapThatItNames) {
+  const double unit_m = scene_.panel_millimetre_m() * 1000.0;
+  for (double orders = 7.95; orders <= kJourneyOrders; orders += 0.1) {
+    const render::FrameState state = frame(orders);
+    const auto label = std::find_if(state.labels.begin(), state.labels.end(),
+                                    [](const render::Label& l) { return l.text == "gap 0.6 nm"; });
+    for (const char* part : {"marks/gap", "marks/gap-low", "marks/gap-high"}) {
+      EXPECT_EQ(state.visible[node(part)] != 0, label != state.labels.end()) << part << " at " << orders;
+    }
+    if (label == state.labels.end()) continue;
+    const glm::dmat4& bar = state.room_from_node[node("marks/gap")];
+    const glm::dvec3 low(bar[3]), high(bar[3] + bar[2]);
+    const glm::dmat4 frame_from_room = glm::inverse(state.room_from_node[node("journey-frame")]);
+    EXPECT_NEAR((frame_from_room * glm::dvec4(low, 1.0)).z, 0.0, 1e-13) << orders;
+    EXPECT_NEAR((frame_from_room * glm::dvec4(high, 1.0)).z, heights("journey/tip-atoms").first, 1e-13) << orders;
+    const glm::dvec3 right_end = label->placement.lower_left_m + label->placement.right_m + 0.5 * label->placement.up_m;
+    EXPECT_GT(right_end.y, low.y) << orders;
+    EXPECT_LT(right_end.y, high.y) << orders;
+    EXPECT_LT(right_end.x, low.x - 0.02 * unit_m) << orders;
+    EXPECT_GT(right_end.x, low.x - 0.08 * unit_m) << orders;
+  }
+}
+
+TEST_F(JourneyTest, NamesTheApexWhileItsUndersideIsAllThatIsSeenOfIt) {
+  for (double orders = 7.05; orders <= kJourneyOrders; orders += 0.1) {
+    const std::vector<render::Label> labels = frame(orders).labels;
+    const auto apex =
+        std::find_if(labels.begin(), labels.end(), [](const render::Label& l) { return l.text.starts_with("apex"); });
+    EXPECT_EQ(apex != labels.end(), orders > 7.8 && orders < 8.75) << orders;
+    if (apex == labels.end()) continue;
+    const render::PanelPlacement& place = apex->placement;
+    for (const render::Label& other : labels) {
+      if (other.text == apex->text) continue;
+      const glm::dvec3 apart = other.placement.lower_left_m - place.lower_left_m;
+      EXPECT_TRUE(apart.x > place.right_m.x || -apart.x > other.placement.right_m.x || apart.y > place.up_m.y ||
+                  -apart.y > other.placement.up_m.y)
+          << other.text << " at " << orders;
+    }
+  }
 }
 
 // The shade of the tip has the numbers of its model.

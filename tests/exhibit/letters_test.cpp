@@ -47,6 +47,10 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   const Phrases& phrases = stage->phrases();
   const render::PanelPlacement right = stage->wall_scene.places().parameters();
   expect_large(frame.panels.force.content, frame.panels.force.placement, "the plot");
+  painter.look_for_overlaps(true);
+  EXPECT_FALSE(painter.paint(frame.panels.force.content, frame.panels.force.placement).overlapping)
+      << "the comma of the live force is on the legend";
+  painter.look_for_overlaps(false);
   expect_large(frame.panels.data.content, frame.panels.data.placement, "the data");
   expect_large(full_banner(phrases, frame.panels.banner.content), frame.panels.banner.placement, "the banner");
   expect_large(render::ListPanel{app::key_list(app::HandSource::Mouse, false, phrases)},

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
+#include <vector>
 
 #include "panels/panel_painting.h"
 
@@ -31,6 +32,8 @@ struct Painted {
   float least_em_m = 1.0F;       // smallest letter's em square, on the wall
   float largest_em_m = 0.0F;
   float left_px = 1e9F, right_px = -1e9F;  // ends of the letters
+  float bottom_px = -1e9F;                 // lowest of them
+  bool overlapping = false;                // a large letter and a small one, if it is asked for
 
   bool inside(float slack = 1.0F) const {
     return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;
@@ -54,6 +57,8 @@ class Painter {
       }
     }
   }
+
+  void look_for_overlaps(bool whether) { looks_for_overlaps_ = whether; }
 
   template <class Content>
   Painted paint(const Content& content, const render::PanelPlacement& placement, const glm::vec3& state_color = {}) {
@@ -101,6 +106,11 @@ class Painter {
   // What letter a rectangle shows is known by its place in the atlas.
   void measure_letters(const ImDrawList& list, Painted& painted) const {
     const float texel_m = static_cast<float>(millimetre_m_) / fonts_.texels_per_mm;
+    struct Letter {
+      ImVec2 low, high;
+      float em_m;
+    };
+    std::vector<Letter> letters;
     for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
       const ImDrawVert &from = list.VtxBuffer[i], &to = list.VtxBuffer[i + 2];
       const auto em = em_of_height_.find({from.uv.x, from.uv.y, to.uv.x, to.uv.y});
@@ -110,6 +120,15 @@ class Painter {
       painted.largest_em_m = std::max(painted.largest_em_m, em_m);
       painted.left_px = std::min(painted.left_px, from.pos.x);
       painted.right_px = std::max(painted.right_px, to.pos.x);
+      painted.bottom_px = std::max(painted.bottom_px, to.pos.y);
+      if (!looks_for_overlaps_) continue;
+      for (const Letter& other : letters) {
+        const bool apart = from.pos.x >= other.high.x || to.pos.x <= other.low.x || from.pos.y >= other.high.y ||
+                           to.pos.y <= other.low.y;
+        const float larger = std::max(em_m, other.em_m), smaller = std::min(em_m, other.em_m);
+        painted.overlapping = painted.overlapping || (!apart && larger > 2.0F * smaller);
+      }
+      letters.push_back({from.pos, to.pos, em_m});
     }
   }
 
@@ -123,6 +142,7 @@ class Painter {
 
   render::PanelFonts fonts_;
   double millimetre_m_;
+  bool looks_for_overlaps_ = false;
   std::unique_ptr<ImGuiContext, ContextEnd> imgui_;
   std::map<std::array<float, 4>, float> em_of_height_;  // em of a letter by its height, by its place in the atlas
   render::CanvasMemory memory_;

@@ -221,6 +221,8 @@ TEST(ParticleTask, IsJudgedByMeasuredPlacesAlone) {
   person.look();
   const scene::TaskScore looked = score_now();
   EXPECT_EQ(looked.state, scene::TaskState::Done) << scene::text_of(looked);
+  EXPECT_LT(looked.time_s, 300.0);
+  EXPECT_LE(looked.rms_m, scene::median_radius(set).si);
   EXPECT_EQ(looked.strokes, pushed.strokes);
   EXPECT_EQ(looked.truth, 0U);
   EXPECT_LT(looked.time_s, pushed.time_s) << "up to the last lift, without the looks";

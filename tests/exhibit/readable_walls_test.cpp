@@ -62,6 +62,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   const render::Banner shown = full_banner(phrases, frame.panels.banner.content);
   const Painted banner = painter.paint(shown, frame.panels.banner.placement, shown.state_color);
   EXPECT_TRUE(banner.inside() && !banner.cut) << where << ": the banner";
+  EXPECT_LT(banner.bottom_px, 0.97F * banner.size.y) << where << ": the banner's last line is on its edge";
   const float letters = render::text_height_mm(render::TextStyle::Strong);
   const float letter_px = banner.state_height_px * letters / (letters + 24.0F);
   // a picture of 12 m x 2 m that is 400 pixels wide has 67 rows, 7 of them for the banner; one of 6 m x 2 m has 133

@@ -133,6 +133,31 @@ Place place_of(const std::string& name, const render::PanelPlacement& panel, con
   return {name, on->name, seen(panel, eyes[0])};
 }
 
+// The plate with the word of a jump is wholly seen, and no eye sees it over a panel.
+void expect_word_off_the_panels(const Stage& stage, const std::string& what) {
+  const StagePlace screens = stage_place(stage.wall);
+  const scene::Viewer& viewer = stage.wall.viewers.front();
+  const bool on_main = !screens.left;  // the panels are on other screens, or the main one has them
+  for (const auto kind : {physics::EventKind::JumpToContact, physics::EventKind::JumpOffContact}) {
+    render::FrameState frame;
+    stage.wall_scene.update({.material = 0, .cue = JumpCue{.kind = kind, .force_n = -1e-9F, .age_s = 0.5}}, frame);
+    const render::PanelPlacement& plate = frame.labels.back().placement;
+    EXPECT_GT(glm::length(plate.right_m), 0.8 * kCueWidth * stage.wall_scene.places().unit_m()) << what;
+    const auto eyes = eyes_before(screens.main, viewer.sweet_spot, viewer.ipd_m).value();
+    for (const scene::EyeView& eye : eyes) {
+      const Rectangle word = seen(plate, eye);
+      EXPECT_TRUE(glm::all(glm::greaterThanEqual(word.low, glm::dvec2(0.0)))) << what;
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(word.high, glm::dvec2(1.0)))) << what;
+      const render::FramePanels& panels = frame.panels;
+      for (const auto& panel : {panels.banner.placement, panels.force.placement, panels.data.placement}) {
+        if (!on_main && panel != panels.banner.placement) continue;
+        const Rectangle other = seen(panel, eye);
+        EXPECT_FALSE(word.overlaps(other)) << what << ": plate from " << word.low.x << ", panel up to " << other.high.x;
+      }
+    }
+  }
+}
+
 void expect_everything_in_its_place(const std::string& wall_file, const std::string& what) {
   const auto stage = stage_on(wall_file);
   ASSERT_TRUE(stage) << what << ": " << stage.error().message;
@@ -161,6 +186,7 @@ void expect_everything_in_its_place(const std::string& wall_file, const std::str
     EXPECT_LE(aspect, 1.6 + 1e-9) << what;
     EXPECT_GE(aspect, 0.5) << what;
   }
+  expect_word_off_the_panels(*stage, what);
 }
 
 TEST(EveryWall, HasRoomForAllThatMustBeRead) {

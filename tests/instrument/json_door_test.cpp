@@ -203,6 +203,26 @@ TEST_F(JsonDoorTest, GivesATappingCurve) {
   EXPECT_NEAR(usual["z_m"][0].get<double>(), 22e-9, 1e-15);
 }
 
+TEST_F(JsonDoorTest, CountsTheHeightsOfATappingCurveAndEndsIt) {
+  const std::string request = R"({"id": 7, "do": "tapping_curve", "points": 5)";
+  const std::vector<std::string> lines = lines_for(request + R"(, "progress": true})");
+  ASSERT_EQ(lines.size(), 10U) << "down, up again, and the answer";
+  for (int i = 0; i < 9; ++i) {
+    EXPECT_EQ(json::parse(lines[static_cast<std::size_t>(i)]), (json{{"id", 7}, {"done", i + 1}, {"of", 9}}));
+  }
+  EXPECT_EQ(lines_for(request + "}"), (std::vector{lines.back()})) << "unless it is asked for";
+  EXPECT_THAT(refusal_of(request + R"(, "progress": 1})"), HasSubstr("\"progress\": give true or false"));
+
+  std::size_t looks = 0;
+  door_.look_with([&] { return std::string_view(++looks == 3 ? "{\"do\": \"stop\"}\n" : ""); });
+  EXPECT_EQ(refusal_of(request + "}"), "the tapping curve was ended after 3 of 9 heights");
+  door_.look_with({});
+  int sent = 0;
+  door_.answer(request + R"(, "progress": true})", [&](std::string_view) { return ++sent < 3; });
+  EXPECT_EQ(sent, 4) << "nobody reads: the refusal alone comes after the third line";
+  EXPECT_EQ(lines_for(request + "}"), (std::vector{lines.back()})) << "nothing has changed";
+}
+
 TEST_F(JsonDoorTest, StreamsAnImageOfASwing) {
   EXPECT_THAT(refusal_of(R"({"do": "set", "values": {"mode": "lift"}})"), HasSubstr("contact"));
   answer_to(R"({"do": "set", "values": {"mode": "tapping", "law": "dmt", "spring_constant_N_per_m": 40,

@@ -220,8 +220,14 @@ class Fits(Files):
         with self.assertRaises(TypeError):
             touchafm.fit(curve, model="sphere", radius=5e-6)
         flat = touchafm.Curve(z=np.linspace(1e-6, 0, 100), force=np.zeros(100), approach=np.ones(100))
-        with self.assertRaises(touchafm.FileError):
-            touchafm.fit(flat, model="sphere", tip_radius=5e-6)
+        # no file is at fault; programs that catch wrong numbers catch it
+        for given in (flat, touchafm.Curve(z=flat.z, force=flat.force, approach=flat.approach, spring_constant=0.1),
+                      touchafm.analyse(flat)):
+            with self.assertRaisesRegex(touchafm.DataError, "cannot fit curve: "):
+                touchafm.fit(given, model="sphere", tip_radius=5e-6)
+        with self.assertRaisesRegex(touchafm.DataError, "finds no contact point"):
+            touchafm.analyse(flat, contact_point="fit-polynomial")
+        self.assertTrue(issubclass(touchafm.DataError, ValueError))
 
 
 class Sessions(Files):

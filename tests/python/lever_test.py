@@ -51,13 +51,34 @@ class Lever(unittest.TestCase):
             touchafm.lever()
         self.assertEqual(str(refused.exception), error_of("lever"))
         for given in ({"thermal": ([1.0], [1.0, 2.0])}, {"sader": True, "length": -1.0}, {"sader": True, "fluid": "honey"},
-                      {"thermal": spectrum(), "unit": "nm"}, {"thermal": spectrum(), "mode": 0}):
+                      {"thermal": spectrum(), "unit": "nm"}):
             with self.assertRaises(ValueError):
                 touchafm.lever(**given)
-        with self.assertRaises(touchafm.FileError):
-            touchafm.lever(thermal=([1.0, 2.0], [-1.0, 1.0]))
         with self.assertRaises(TypeError):
             touchafm.lever(sader=True, lenght=1e-4)
+
+    def test_names_the_number_that_is_out_of_range(self):
+        for given, words in (({"averages": 0}, "averages: 0 is not within 1 to 1e\\+09; leave it out"),
+                             ({"averages": float("nan")}, "averages: nan"), ({"mode": 0}, "mode: 0 is not within 1 to 10"),
+                             ({"bandwidth": -1.0}, "bandwidth: -1 is not within 0.001 to 1e\\+08"),
+                             ({"low": 9e4, "high": 5e4}, "low, high: 90000 to 50000 Hz does not go up"),
+                             ({"low": float("nan")}, "low, high: nan")):
+            with self.assertRaisesRegex(ValueError, words):
+                touchafm.lever(thermal=spectrum(), unit="V", sensitivity=60e-9, **given)
+
+    def test_tells_faults_of_arrays_from_those_of_files(self):
+        flat = (np.linspace(1e3, 2e3, 100), np.ones(100))
+        curve = touchafm.generate(tip_radius=5e-6, modulus=3e6, spring_constant=0.05, most_force=1e-9, sensitivity=5e-8, bits=16)[0][0]
+        with tempfile.TemporaryDirectory() as folder:
+            names = [os.path.join(folder, name) for name in ("flat.txt", "curve.h5", "none.h5")]
+            np.savetxt(names[0], np.transpose(flat), header="Hz m2/Hz", comments="")
+            curve.write(names[1], format="h5")
+            for given, fault in (({"thermal": flat}, touchafm.DataError), ({"thermal": ([1.0, 2.0], [-1.0, 1.0])}, touchafm.DataError),
+                                 ({"thermal": flat, "unit": "V", "sensitivity_from": names[1]}, touchafm.DataError),
+                                 ({"thermal": flat, "unit": "V", "sensitivity_from": names[2]}, touchafm.FileError),
+                                 ({"thermal": names[0]}, touchafm.FileError)):
+                with self.assertRaises(fault):
+                    touchafm.lever(**given)
 
 
 if __name__ == "__main__":

@@ -87,6 +87,16 @@ class Serve(unittest.TestCase):
         self.assertTrue(np.isnan(image["Height"][len(rows):]).all())
         self.assertEqual(self.afm.get()["lines"], 1000)  # the next answer is that of the next request
 
+    def test_counts_the_heights_of_a_tapping_curve_and_ends_it(self):
+        counts = []
+        curve = self.afm.tapping_curve(points=5, on_progress=lambda done, of: counts.append((done, of)))
+        self.assertEqual(counts, [(done, 9) for done in range(1, 10)])
+        np.testing.assert_array_equal(self.afm.tapping_curve(points=5)["amplitude"], curve["amplitude"])
+        # a curve of minutes: pressed into the sample, for a swing that is integrated directly
+        with self.assertRaisesRegex(serve.Refused, "the tapping curve was ended after [1-9][0-9]* of 199999 heights"):
+            self.afm.tapping_curve(points=100_000, z_to=-20e-9, on_progress=lambda done, of: done < 2)
+        self.assertEqual(self.afm.get()["lines"], 0)  # the next answer is that of the next request
+
     def test_answers_the_next_request_after_one_whose_wait_was_interrupted(self):
         self.afm.set(pixels=64, lines=1000)
         self.afm.approach()

@@ -88,6 +88,39 @@ TEST(Models, TakeLittleRoom) {
   EXPECT_LT(total, 20U << 20U);  // two thirds of it the atoms of three samples, up to the horizon
 }
 
+// Features that change faster than the mesh of the ground had saw teeth before the viewer, who is at negative y.
+TEST(Models, GroundsOfTheJourneyChangeSlowlyEnoughForTheirMesh) {
+  constexpr double kFrom = 60e-9, kTo = 4.5e-3, kBefore = 0.75, kMost = 0.55;  // of all colours of the ground
+  for (const char* name : {"ground-mica", "ground-gold", "ground-si3n4"}) {
+    const Scene scene = load(name);
+    std::vector<double> changes;
+    double low = 1.0, high = 0.0;
+    for (const Node& node : scene.nodes) {
+      if (!node.mesh || !node.name.starts_with("ring")) continue;
+      for (const Primitive& primitive : scene.meshes[*node.mesh].primitives) {
+        const auto is_seen = [&](const Vertex& vertex) {
+          const glm::dvec3 place(vertex.position);
+          const double r = std::hypot(place.x, place.y);
+          return r > kFrom && r < kTo && place.y < -kBefore * r;
+        };
+        for (std::size_t i = 0; i < primitive.indices.size(); ++i) {
+          const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+          const Vertex &a = primitive.vertices[primitive.indices[i]], &b = primitive.vertices[primitive.indices[next]];
+          if (!is_seen(a) || !is_seen(b)) continue;
+          const double shade = static_cast<double>(a.color.r);
+          low = std::min(low, shade);
+          high = std::max(high, shade);
+          changes.push_back(std::abs(shade - static_cast<double>(b.color.r)));
+        }
+      }
+    }
+    ASSERT_GT(changes.size(), 10'000U) << name;
+    const auto most = changes.end() - static_cast<std::ptrdiff_t>(changes.size() / 100);
+    std::nth_element(changes.begin(), most, changes.end());
+    EXPECT_LT(*most, kMost * (high - low)) << name << ": in one edge of a triangle in a hundred";
+  }
+}
+
 TEST(Models, HaveUnitNormalsOnTheOutsideOfEveryTriangle) {
   std::size_t triangles = 0;
   for (const generate::Model& model : generate::all_models()) {

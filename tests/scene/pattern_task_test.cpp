@@ -124,6 +124,35 @@ TEST_F(PatternTaskTest, EndsOnceTheHandHasBeenLiftedAndCountsUpToTheLift) {
   EXPECT_FALSE(task_.unjudged());
 }
 
+TEST_F(PatternTaskTest, GoesOnWhenAPushFromBeforeItsEndIsTakenBack) {
+  stroke();
+  stroke();
+  wait(600);
+  judge(10e-9);
+  const TaskScore done = score();
+  ASSERT_EQ(done.state, TaskState::Done);
+  stroke();
+  order(EventKind::PushTakenBack);
+  EXPECT_EQ(score(), done) << "the pattern is there again";
+  order(EventKind::PushTakenBack);
+  EXPECT_EQ(score().state, TaskState::Running);
+  EXPECT_EQ(score().strokes, 2U);
+  EXPECT_EQ(score().undos, 1U);
+  EXPECT_EQ(score().rms_m, 0.0);
+  EXPECT_GT(score().time_s, done.time_s + 0.6) << "the clock goes on";
+  wait(600);
+  ASSERT_EQ(task_.unjudged(), places_);
+  judge(26e-9);
+  EXPECT_EQ(score().state, TaskState::Running);
+  stroke();
+  wait(600);
+  judge(20e-9);
+  EXPECT_EQ(score().state, TaskState::Done);
+  EXPECT_EQ(score().strokes, 3U);
+  EXPECT_EQ(score().undos, 1U);
+  EXPECT_NEAR(score().rms_m, 20e-9, 1e-15);
+}
+
 // A window looks once a frame, a replay at every tick.
 TEST_F(PatternTaskTest, DoesNotJudgeASphereThatHangsOnTheTip) {
   stroke();

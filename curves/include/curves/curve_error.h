@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace afm::curves {
 
@@ -12,10 +13,20 @@ class CurveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The file ends before its data do: all of it is refused, even if only one channel is incomplete.
+// What to do with a file, or a part of it, that lacks its end.
+inline constexpr const char* kCopyAgain = "copy the file again from where it was saved";
+
+// "it is cut short: it has 3 of its 64 curves; copy ...". `there`: the part that exists, or what is missing; may be
+// empty.
+inline std::string cut_short(const std::string& there = {}) {
+  return "it is cut short" + (there.empty() ? std::string() : ": " + there) + "; " + kCopyAgain;
+}
+
+// The file ends before its data do: an image is refused, even if only one channel is incomplete; of several curves
+// those are read that are there.
 class CutShort : public CurveError {
  public:
-  using CurveError::CurveError;
+  explicit CutShort(const std::string& there = {}) : CurveError(cut_short(there)) {}
 };
 
 }  // namespace afm::curves

@@ -12,7 +12,7 @@
 namespace afm::curves {
 
 inline std::string_view part(std::string_view bytes, std::size_t offset, std::size_t size) {
-  if (offset > bytes.size() || size > bytes.size() - offset) throw CutShort("it is cut short");
+  if (offset > bytes.size() || size > bytes.size() - offset) throw CutShort();
   return bytes.substr(offset, size);
 }
 

@@ -89,7 +89,7 @@ void read_data(std::string_view bytes, IgorWave& wave) {
   const std::size_t layers = std::max<std::size_t>(wave.layers, 1);
   if (wave.rows > bytes.size() || wave.columns > bytes.size() / wave.rows ||
       layers > bytes.size() / (wave.rows * wave.columns)) {
-    throw CurveError("it is cut short");
+    throw CutShort();
   }
   const std::size_t data_size = wave.rows * wave.columns * layers * wave.number_size;
   if (length_at(bytes, kWaveSize) != kWaveHeaderSize + data_size) {
@@ -177,6 +177,7 @@ std::optional<double> note_number(std::string_view note, std::string_view key) {
   if (text.starts_with('+')) text.remove_prefix(1);
   if (text.empty()) return std::nullopt;
   const auto number = number_of(text);
+  if (!number && has_decimal_comma(text)) throw CurveError(decimal_comma_in(fmt::format("{} in its note", key), text));
   if (!number) throw CurveError(fmt::format("{} in its note is \"{}\", not a number", key, text.substr(0, 40)));
   return std::isfinite(*number) ? number : std::nullopt;
 }

@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20U;
 
+constexpr std::string_view kHeaderEnd = "\\*File list end";
+
 // "\key: value"; the colon in "@2:Z scale" belongs to the key.
 void add_line(std::string_view line, NanoscopeBlock& block) {
   const bool counted =
@@ -60,7 +62,7 @@ std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes) {
   std::vector<NanoscopeBlock> blocks;
   std::string_view line;
   for (Lines lines(header); lines.next(line);) {
-    if (line == "\\*File list end") break;
+    if (line == kHeaderEnd) break;
     if (line.starts_with("\\*")) {
       blocks.push_back({trimmed(line.substr(2)), {}});
     } else if (line.starts_with('\\') && !blocks.empty()) {
@@ -68,6 +70,10 @@ std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes) {
     }
   }
   return blocks;
+}
+
+bool nanoscope_header_ends(std::string_view bytes) {
+  return bytes.substr(0, kMostHeaderBytes).find(kHeaderEnd) != std::string_view::npos;
 }
 
 std::string_view nanoscope_channel(const NanoscopeBlock& channel) {
@@ -97,7 +103,10 @@ std::optional<double> take_number(std::string_view& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  if (rest.starts_with(',') && has_decimal_comma(text.substr(0, text.size() - rest.size() + 2)))
+    throw CurveError(decimal_comma_in("a number of its header", text));
+  text = rest;
   return number;
 }
 
@@ -157,6 +166,40 @@ std::optional<SoftScale> soft_scale(const std::vector<NanoscopeBlock>& blocks, s
     return SoftScale{*number * unit.factor, unit.unit};
   }
   return std::nullopt;
+}
+
+double nanoscope_value_per_integer(const NanoscopeBlock& channel, std::size_t integer_size) {
+  const auto scale = hard_scale(channel.find("@4:z scale"));
+  if (!scale || (!scale->per_lsb && !scale->value)) {
+    throw CurveError(fmt::format("its channel {} has no \"@4:Z scale\"", nanoscope_channel(channel)));
+  }
+  constexpr double kRounding = 0.01;
+  const double unit = scaled_unit(scale->unit).factor;
+  const double of_range = scale->value.value_or(0.0) / std::pow(256.0, static_cast<double>(integer_size));
+  if (!scale->per_lsb) return unit * of_range;
+  return unit * (std::abs(of_range / *scale->per_lsb - 1.0) < kRounding ? of_range : *scale->per_lsb);
+}
+
+std::optional<double> nanoscope_metres_per_volt(const std::vector<NanoscopeBlock>& blocks, std::string_view name) {
+  const auto soft = soft_scale(blocks, name, "V");
+  return soft && soft->unit == "m" && soft->factor != 0.0 ? std::optional(soft->factor) : std::nullopt;
+}
+
+double nanoscope_ramp_m(const NanoscopeBlock& channel, const std::vector<NanoscopeBlock>& blocks) {
+  const auto list = std::find_if(blocks.begin(), blocks.end(), [](const NanoscopeBlock& block) {
+    return lower_key(block.name) == kNanoscopeForceList;
+  });
+  for (const NanoscopeBlock* block : {&channel, list != blocks.end() ? &*list : &channel}) {
+    for (const char* key : {"@4:ramp size", "@4:ramp size zsweep", "@ramp size", "@z scan size"}) {
+      const auto scale = hard_scale(block->find(key));
+      if (!scale || !scale->value) continue;
+      const auto per_volt =
+          nanoscope_metres_per_volt(blocks, scale->soft_name.empty() ? "Sens. Zsens" : scale->soft_name);
+      if (!per_volt) throw CurveError(fmt::format("it does not say how long its ramp of {:g} V is", *scale->value));
+      return std::abs(*scale->value * scaled_unit(scale->unit).factor * *per_volt);
+    }
+  }
+  throw CurveError("it has neither a channel of the height nor a \"Ramp size\"");
 }
 
 }  // namespace afm::curves

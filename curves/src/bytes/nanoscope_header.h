@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -26,6 +27,10 @@ struct NanoscopeBlock {
 std::string lower_key(std::string_view text);
 
 std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes);
+
+// False for a file that is cut off in its header.
+bool nanoscope_header_ends(std::string_view bytes);
+inline constexpr const char* kNoHeaderEnd = "its header has no end";  // what is then missing
 
 // The name "Deflection Error" in S [DeflectionError] "Deflection Error"; empty without one.
 std::string_view nanoscope_channel(const NanoscopeBlock& channel);
@@ -63,5 +68,19 @@ struct SoftScale {
 // "V 12.5 nm/V" of "@Sens. Zsens", or "V 1 log(Pa)/log(Arb)", from any block. `per` is the unit behind the stroke.
 std::optional<SoftScale> soft_scale(const std::vector<NanoscopeBlock>& blocks, std::string_view name,
                                     std::string_view per);
+
+// Name of the block of a ramp.
+inline constexpr std::string_view kNanoscopeForceList = "ciao force list";
+
+// The value of one integer of a force channel, before any sensitivity. The header prints it rounded, and its full range
+// exactly, which in older files is that of the screen. Throws CurveError without a scale.
+double nanoscope_value_per_integer(const NanoscopeBlock& channel, std::size_t integer_size);
+
+// Metres of a volt, by the sensitivity of that name; empty where the file does not tell.
+std::optional<double> nanoscope_metres_per_volt(const std::vector<NanoscopeBlock>& blocks, std::string_view name);
+
+// The length of the ramp: "@4:Ramp size" of the channel, or an older key of the force list. Throws CurveError without
+// one.
+double nanoscope_ramp_m(const NanoscopeBlock& channel, const std::vector<NanoscopeBlock>& blocks);
 
 }  // namespace afm::curves

@@ -68,6 +68,7 @@ std::optional<std::string_view> NanosurfSection::text(std::string_view key) cons
 std::optional<double> NanosurfSection::number(std::string_view key) const {
   const auto found = text(key);
   if (!found) return std::nullopt;
+  if (has_decimal_comma(*found)) throw CurveError(decimal_comma_in(fmt::format("its \"{}\"", key), *found));
   double value = 0;
   const auto [end, error] = std::from_chars(found->data(), found->data() + found->size(), value);
   return error == std::errc() && std::isfinite(value) ? std::optional(value) : std::nullopt;
@@ -84,9 +85,9 @@ const NanosurfSection* NanosurfFile::section(std::string_view name) const {
   return found == sections.end() ? nullptr : &found->second;
 }
 
-NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos) {
+NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos, NanosurfEnd end) {
   const std::size_t mark = bytes.find(kDataMark);
-  if (mark == std::string_view::npos) throw CutShort("it is cut short: it has no data");
+  if (mark == std::string_view::npos) throw CutShort("it has no data");
   NanosurfFile file;
   read_sections(bytes.substr(0, mark), most_infos, file);
   std::string_view rest = bytes.substr(mark + kDataMark.size());
@@ -102,8 +103,11 @@ NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos) {
       const NanosurfSection* channel = file.section(*name);
       if (channel == nullptr) throw CurveError(fmt::format("it has no section [{}]", *name));
       const std::size_t size = size_of(*channel);
-      file.channels.push_back({group_name, channel, part(rest, 0, size)});
-      rest.remove_prefix(size);
+      if (size > rest.size() && end == NanosurfEnd::Needed) {
+        throw CutShort(fmt::format("{} of its channels are whole", file.channels.size()));
+      }
+      file.channels.push_back({group_name, channel, rest.substr(0, size)});
+      rest.remove_prefix(std::min(size, rest.size()));
     }
   }
   return file;

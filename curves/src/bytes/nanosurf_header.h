@@ -50,7 +50,10 @@ struct NanosurfFile {
   // Null without it.
   const NanosurfSection* section(std::string_view name) const;
 };
-NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos);
+
+// The end of a file that is cut short: refused, or its channels have the numbers that are there.
+enum class NanosurfEnd { Needed, MayLack };
+NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos, NanosurfEnd end = NanosurfEnd::Needed);
 
 // Integers of a channel, as the file stores them.
 struct NanosurfIntegers {

@@ -38,13 +38,28 @@ void split(std::string_view text, char separator, std::vector<std::string_view>&
   }
 }
 
+bool has_decimal_comma(std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t at = text.find(','); at != std::string_view::npos; at = text.find(',', at + 1)) {
+    if (at > 0 && at + 1 < text.size() && is_digit(text[at - 1]) && is_digit(text[at + 1])) return true;
+  }
+  return false;
+}
+
+std::string decimal_comma_in(std::string_view name, std::string_view text) {
+  return fmt::format("{} is \"{}\", with a decimal comma; write a decimal point", name,
+                     core::printable_line(text.substr(0, 40)));
+}
+
 double number_in(std::string_view field, std::string_view column, const Lines& lines) {
   field = trimmed(field);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-    throw CurveError(fmt::format("line {}: {} is \"{}\", not a finite number", lines.number(), column,
-                                 core::printable_line(field.substr(0, 40))));
+    const std::string place = lines.number() == 0 ? std::string() : fmt::format("line {}: ", lines.number());
+    if (has_decimal_comma(field)) throw CurveError(place + decimal_comma_in(column, field));
+    throw CurveError(
+        fmt::format("{}{} is \"{}\", not a finite number", place, column, core::printable_line(field.substr(0, 40))));
   }
   return value;
 }

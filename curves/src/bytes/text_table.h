@@ -26,7 +26,14 @@ std::string_view trimmed(std::string_view text);
 // The parts between the separators; an empty text has one empty part. Reuses `parts`.
 void split(std::string_view text, char separator, std::vector<std::string_view>& parts);
 
-// A finite decimal number that fills the whole field except for blanks. Throws CurveError with the place.
+// True if a comma lies between two digits, as in "0,05".
+bool has_decimal_comma(std::string_view text);
+
+// Sentence on a number with a decimal comma, which is refused: its digits behind the comma would be lost, or be another
+// number.
+std::string decimal_comma_in(std::string_view name, std::string_view text);
+
+// A finite decimal number that fills the whole field except for blanks. Throws CurveError with the place; line 0: none.
 double number_in(std::string_view field, std::string_view column, const Lines& lines);
 
 // Index of a column in the table's heading. Throws CurveError if there is none.

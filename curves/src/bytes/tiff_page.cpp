@@ -101,12 +101,12 @@ std::string tiff_strips(std::string_view file, const TiffPage& page, std::size_t
     const auto offset = page.number(kStripOffsets, i), length = page.number(kStripSizes, i);
     const auto most = static_cast<double>(file.size());
     if (!offset || !length || !(*offset >= 0 && *offset <= most && *length > 0 && *length <= most)) {
-      throw CurveError("it is damaged: a strip of an image lies outside the file");
+      throw CurveError(cut_short("a strip of an image lies outside it"));
     }
     const std::string_view strip = part(file, static_cast<std::size_t>(*offset), static_cast<std::size_t>(*length));
     pixels += strip.substr(0, size - pixels.size());
   }
-  if (pixels.size() != size) throw CurveError("it is cut short: the strips of an image do not fill it");
+  if (pixels.size() != size) throw CurveError(cut_short("the strips of an image do not fill it"));
   return pixels;
 }
 

@@ -86,6 +86,12 @@ std::optional<Packed> packed_entry(std::string_view bytes, std::string_view head
   return Packed{here.substr(begin, packed), found.size, found.checksum, found.deflated};
 }
 
+// The last record, before a comment of at most 64 KiB (APPNOTE 4.3.16).
+bool has_end(std::string_view bytes) {
+  constexpr std::size_t kFarthest = 22 + 65535;
+  return bytes.substr(bytes.size() - std::min(bytes.size(), kFarthest)).find("PK\x05\x06") != std::string_view::npos;
+}
+
 std::size_t checksum_of(std::string_view bytes) {
   return ::crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
 }
@@ -124,7 +130,8 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::function<void(std::str
   zlib_filefunc64_def access{&ZipCallbacks::open, &ZipCallbacks::read,  &ZipCallbacks::write, &ZipCallbacks::tell,
                              &ZipCallbacks::seek, &ZipCallbacks::close, &ZipCallbacks::error, nullptr};
   archive_.reset(unzOpen2_64(cursor_.get(), &access));
-  if (!archive_) throw CurveError("its zip archive is damaged");
+  if (!archive_ && !has_end(bytes)) throw CutShort("its zip archive has no end");
+  if (!archive_) throw CurveError(std::string("its zip archive is damaged; ") + kCopyAgain);
   const auto add = [&](std::string_view name, const unz64_file_pos& at) {
     if (name.empty()) return;
     places_.push_back({std::hash<std::string_view>()(name), at});
@@ -224,7 +231,7 @@ std::string ZipArchive::entry(std::string_view name, std::size_t most_bytes) con
   std::string bytes(packed->deflated ? std::string(packed->size, '\0') : std::string(packed->bytes));
   const bool whole = !packed->deflated || inflater_.unpack(packed->bytes, bytes);
   if (!whole || checksum_of(bytes) != packed->checksum) {
-    throw CurveError(fmt::format("\"{}\" in its archive is damaged", name));
+    throw CurveError(fmt::format("\"{}\" in its archive is damaged; {}", name, kCopyAgain));
   }
   return bytes;
 }
@@ -242,7 +249,7 @@ std::string ZipArchive::unpacked(const Place& place, std::string_view name, std:
                                    static_cast<int>(bytes.size());
   // closing compares the checksum
   if (!opened || unzCloseCurrentFile(archive_.get()) != UNZ_OK || !whole) {
-    throw CurveError(fmt::format("\"{}\" in its archive is damaged", name));
+    throw CurveError(fmt::format("\"{}\" in its archive is damaged; {}", name, kCopyAgain));
   }
   return bytes;
 }

@@ -127,31 +127,60 @@ std::uint64_t ArdfCurves::read_channels(std::uint64_t offset) {
   return offset;
 }
 
-// Each line begins at an entry of the table; its curves are a list, which ends with another line or the way back.
+struct ArdfCurves::Walk {
+  std::unordered_set<std::size_t> seen;  // places of the curves in the file
+  std::optional<std::uint32_t> way;      // the pass that is read
+};
+
+// Each line begins at an entry of the table.
 void ArdfCurves::find_sets(const ArdfTable& lines) {
-  std::unordered_set<std::size_t> seen;
-  std::optional<std::uint32_t> way;
+  Walk walk;
   for (const ArdfSection& entry : lines.entries) {
-    const std::uint64_t line = ardf_number(entry, 20);
-    for (std::uint64_t next = ardf_pointer(entry, 32); next < bytes_.size();) {
-      const ArdfSection set = ardf_section(bytes_, next);
-      if (set.name != "VSET") break;
-      const Set place{set.offset, ardf_number(set, 20), ardf_number(set, 24)};
-      const std::uint32_t this_way = ardf_number(set, 28);
-      if (place.line != line || way.value_or(this_way) != this_way || !seen.insert(set.offset).second) break;
-      way = this_way;
-      if (place.line >= rows_ || place.point >= columns_) {
-        throw CurveError(fmt::format("a curve of it is at point {} of line {}, beside its {} x {} places", place.point,
-                                     place.line, columns_, rows_));
-      }
-      sets_.push_back(place);
-      next = ardf_pointer(set, 40);
-      if (next <= set.offset) break;
+    try {
+      find_line(ardf_number(entry, 20), ardf_pointer(entry, 32), walk);
+    } catch (const CutShort&) {
+      is_cut_ = true;
     }
   }
+  leave_out_cut_set();
+  if (sets_.empty() && is_cut_) throw CutShort("none of its curves is there");
   if (sets_.empty()) throw CurveError(kNotMeasured);
   std::stable_sort(sets_.begin(), sets_.end(),
                    [](const Set& a, const Set& b) { return a.line != b.line ? a.line < b.line : a.point < b.point; });
+}
+
+// The curves of a line are a list, which ends with another line or the way back.
+void ArdfCurves::find_line(std::uint64_t line, std::uint64_t first, Walk& walk) {
+  for (std::uint64_t next = first; next != 0;) {
+    const ArdfSection set = ardf_section(bytes_, next);
+    if (set.name != "VSET") return;
+    const Set place{set.offset, ardf_number(set, 20), ardf_number(set, 24)};
+    const std::uint32_t this_way = ardf_number(set, 28);
+    if (place.line != line || walk.way.value_or(this_way) != this_way || !walk.seen.insert(set.offset).second) return;
+    walk.way = this_way;
+    if (place.line >= rows_ || place.point >= columns_) {
+      throw CurveError(fmt::format("a curve of it is at point {} of line {}, beside its {} x {} places", place.point,
+                                   place.line, columns_, rows_));
+    }
+    sets_.push_back(place);
+    next = ardf_pointer(set, 40);
+    if (next <= set.offset) return;
+  }
+}
+
+// Where a file ends early, the curve before its end is not whole.
+void ArdfCurves::leave_out_cut_set() {
+  const auto last =
+      std::max_element(sets_.begin(), sets_.end(), [](const Set& a, const Set& b) { return a.offset < b.offset; });
+  if (last == sets_.end()) return;
+  try {
+    for (std::size_t i = 0; i < channels_.size(); ++i) array_of(*last, i);
+  } catch (const CutShort&) {
+    is_cut_ = true;
+    sets_.erase(last);
+  } catch (const CurveError&) {
+    // its own fault, which it has when it is read
+  }
 }
 
 // The index of a channel; that behind the last without it.
@@ -194,8 +223,11 @@ double ArdfCurves::newton_per_unit(const Channel& deflection, const CurveReading
 }
 
 RecordedCurve ArdfCurves::curve(std::size_t index, const CurveReading& reading) const {
+  const std::string there = fmt::format("it has {} of at most {} curves", sets_.size(), columns_ * rows_);
+  if (is_cut_ && index == sets_.size()) throw CutShort(there);
   const Set& set = sets_.at(index);
   RecordedCurve curve{{}, {}, asylum_metadata(note_)};
+  if (is_cut_) curve.metadata.remarks.push_back(cut_short(there));
   const std::size_t deflection = channel("Defl");
   std::size_t height = channel("ZSnsr");
   if (height == channels_.size()) height = channel("Raw");

@@ -17,7 +17,8 @@ namespace afm::curves {
 // an array of floats for each channel, of which "Defl" (metres, or volts) and "ZSnsr", otherwise "Raw" (metres, towards
 // the sample), are read, with the calibration of the file's note. The names of the segments say which parts are
 // approach and retract; a curve without segments turns in the middle. Lines count from the bottom, points from the
-// left; those that were not measured are missing. Throws CurveError.
+// left; those that were not measured are missing. Of a file that is cut short those are read that are whole. Throws
+// CurveError.
 class ArdfCurves {
  public:
   // The bytes must outlive the object.
@@ -25,8 +26,8 @@ class ArdfCurves {
   ArdfCurves(const ArdfCurves&) = delete;
   ArdfCurves& operator=(const ArdfCurves&) = delete;
 
-  // Number of curves that were measured.
-  std::size_t size() const { return sets_.size(); }
+  // Number of curves that were measured; of a file that is cut short, those that are there and one more.
+  std::size_t size() const { return sets_.size() + (is_cut_ ? 1 : 0); }
 
   // Curve of an index below size(). Throws also for a file without a calibration that `reading` lacks too.
   RecordedCurve curve(std::size_t index, const CurveReading& reading) const;
@@ -42,11 +43,14 @@ class ArdfCurves {
     std::uint64_t line = 0, point = 0;
   };
   struct Array;
+  struct Walk;
 
   void read_note(const ArdfTable& contents);
   void read_volume(std::uint64_t offset);
   std::uint64_t read_channels(std::uint64_t offset);
   void find_sets(const ArdfTable& lines);
+  void find_line(std::uint64_t line, std::uint64_t first, Walk& walk);
+  void leave_out_cut_set();
   std::size_t channel(std::string_view name) const;
   Array array_of(const Set& set, std::size_t channel) const;
   double newton_per_unit(const Channel& deflection, const CurveReading& reading, CurveMetadata& metadata) const;
@@ -59,6 +63,7 @@ class ArdfCurves {
   double step_x_m_ = 0, step_y_m_ = 0;  // 0: unknown
   std::size_t volumes_ = 0;
   std::vector<Set> sets_;  // by line and point
+  bool is_cut_ = false;    // others are missing
 };
 
 }  // namespace afm::curves

@@ -29,8 +29,7 @@ void check_curve_trailer(std::string_view trailer) {
   const auto last = [&](std::size_t back) { return back < trailer.size() ? trailer[trailer.size() - 1 - back] : '\0'; };
   while (std::isalpha(static_cast<unsigned char>(last(letters))) != 0) ++letters;
   while (std::isdigit(static_cast<unsigned char>(last(letters + 1 + digits))) != 0) ++digits;
-  if (letters == 0 || last(letters) != ' ' || digits != 4)
-    throw CurveError("it is cut short: the text at its end is not whole");
+  if (letters == 0 || last(letters) != ' ' || digits != 4) throw CutShort("the text at its end is not whole");
 }
 
 std::size_t channel(const IgorWave& wave, std::initializer_list<std::string_view> names) {

@@ -122,7 +122,8 @@ std::vector<double> JpkSegment::recorded(std::string_view channel) const {
   const Encoding encoding = is_encoded ? encoding_of(storage->type) : *real_of(storage->type);
   const Linear decoded = is_encoded ? linear_at(storage->encoder + "scaling") : Linear();
   const std::string bytes = archive_.entry(data_file(channel), kMostChannelBytes);
-  if (bytes.size() % encoding.bytes != 0) throw CurveError(fmt::format("channel \"{}\" is cut short", channel));
+  if (bytes.size() % encoding.bytes != 0)
+    throw CurveError(fmt::format("channel \"{}\" is cut short; {}", channel, kCopyAgain));
   std::vector<double> values(bytes.size() / encoding.bytes);
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] = decoded(big_endian(std::string_view(bytes).substr(i * encoding.bytes, encoding.bytes), encoding));

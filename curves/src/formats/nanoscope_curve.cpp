@@ -16,7 +16,6 @@
 
 #include "bytes/file_bytes.h"
 #include "bytes/nanoscope_header.h"
-#include "bytes/scaled_unit.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "formats/segments.h"
@@ -27,7 +26,7 @@ namespace {
 
 using NanoscopeBlocks = std::vector<NanoscopeBlock>;
 
-constexpr std::string_view kForceChannel = "ciao force image list", kForceList = "ciao force list";
+constexpr std::string_view kForceChannel = "ciao force image list";
 constexpr std::array<std::size_t, 2> kIntegerSizes{2, 4};
 
 // Integers of two bytes may be stored in four.
@@ -54,48 +53,12 @@ const NanoscopeBlock* channel_named(const std::vector<const NanoscopeBlock*>& ch
   return found != channels.end() ? *found : nullptr;
 }
 
-// The value of one integer, before any sensitivity. The header prints it rounded, and its full range exactly, which in
-// older files is that of the screen.
-double value_per_integer(const NanoscopeBlock& channel, std::size_t integer_size) {
-  const auto scale = hard_scale(channel.find("@4:z scale"));
-  if (!scale || (!scale->per_lsb && !scale->value)) {
-    throw CurveError(fmt::format("its channel {} has no \"@4:Z scale\"", nanoscope_channel(channel)));
-  }
-  constexpr double kRounding = 0.01;
-  const double unit = scaled_unit(scale->unit).factor;
-  const double of_range = scale->value.value_or(0.0) / std::pow(256.0, static_cast<double>(integer_size));
-  if (!scale->per_lsb) return unit * of_range;
-  return unit * (std::abs(of_range / *scale->per_lsb - 1.0) < kRounding ? of_range : *scale->per_lsb);
-}
-
-// Metres of a volt; empty where the file does not tell.
-std::optional<double> length_sensitivity(const NanoscopeBlocks& blocks, std::string_view name) {
-  const auto soft = soft_scale(blocks, name, "V");
-  return soft && soft->unit == "m" && soft->factor != 0.0 ? std::optional(soft->factor) : std::nullopt;
-}
-
-// The length of the ramp: "@4:Ramp size" of the channel, or an older key of the force list.
-double ramp_length_m(const NanoscopeBlock& channel, const NanoscopeBlocks& blocks) {
-  const auto list = std::find_if(blocks.begin(), blocks.end(),
-                                 [](const NanoscopeBlock& block) { return lower_key(block.name) == kForceList; });
-  for (const NanoscopeBlock* block : {&channel, list != blocks.end() ? &*list : &channel}) {
-    for (const char* key : {"@4:ramp size", "@4:ramp size zsweep", "@ramp size", "@z scan size"}) {
-      const auto scale = hard_scale(block->find(key));
-      if (!scale || !scale->value) continue;
-      const auto per_volt = length_sensitivity(blocks, scale->soft_name.empty() ? "Sens. Zsens" : scale->soft_name);
-      if (!per_volt) throw CurveError(fmt::format("it does not say how long its ramp of {:g} V is", *scale->value));
-      return std::abs(*scale->value * scaled_unit(scale->unit).factor * *per_volt);
-    }
-  }
-  throw CurveError("it has neither a channel of the height nor a \"Ramp size\"");
-}
-
 // The file's calibration, otherwise that of `reading`, which both are written into the metadata.
 double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& blocks, const CurveReading& reading,
                        CurveMetadata& metadata) {
   const auto scale = hard_scale(deflection.find("@4:z scale"));
   const std::string_view sensitivity = scale && !scale->soft_name.empty() ? scale->soft_name : "Sens. DeflSens";
-  metadata.sensitivity_m_per_v = length_sensitivity(blocks, sensitivity);
+  metadata.sensitivity_m_per_v = nanoscope_metres_per_volt(blocks, sensitivity);
   if (deflection.find("spring constant") != nullptr) {
     const double k = nanoscope_number(deflection, "spring constant");
     if (k != 0.0) metadata.spring_constant = physics::Stiffness(k);
@@ -130,11 +93,11 @@ CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks, std::size_t held
     if (const auto* microscope = block.find("microscope"); microscope != nullptr && name == "equipment list") {
       metadata.instrument = *microscope;
     }
-    if (name == kForceList && held > 0) {
+    if (name == kNanoscopeForceList && held > 0) {
       const bool timed = block.find("hold time") != nullptr;
       const double hold_s = timed ? nanoscope_number(block, "hold time") : 0.0;
       remark_left_out(held, kBetweenBranches, "rests", hold_s > 0.0 ? std::optional(hold_s) : std::nullopt, metadata);
-    } else if (name == kForceList && block.find("reverse delay") != nullptr) {
+    } else if (name == kNanoscopeForceList && block.find("reverse delay") != nullptr) {
       if (const double delay_s = nanoscope_number(block, "reverse delay"); delay_s > 0.0) {
         remark_left_out(0, kBetweenBranches, "rests", delay_s, metadata);
       }
@@ -189,7 +152,7 @@ NanoscopeCurves::Lengths NanoscopeCurves::lengths_of(const NanoscopeBlock& chann
 // Points of the hold in each curve, of a channel that has them.
 std::size_t NanoscopeCurves::hold_of(const std::vector<NanoscopeBlock>& blocks) {
   for (const NanoscopeBlock& block : blocks) {
-    if (lower_key(block.name) != kForceList || block.find("hold samples") == nullptr) continue;
+    if (lower_key(block.name) != kNanoscopeForceList || block.find("hold samples") == nullptr) continue;
     const double points = nanoscope_number(block, "hold samples");
     if (!(points >= 0.0 && points <= static_cast<double>(kMostCurvePoints)) || points != std::floor(points))
       throw CurveError(fmt::format("its hold has {:g} points; 0 to {} are read", points, kMostCurvePoints));
@@ -199,6 +162,15 @@ std::size_t NanoscopeCurves::hold_of(const std::vector<NanoscopeBlock>& blocks) 
 }
 
 NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks_(nanoscope_blocks(bytes)) {
+  try {
+    read_header();
+  } catch (const CurveError&) {
+    if (!nanoscope_header_ends(bytes)) throw CutShort(kNoHeaderEnd);
+    throw;
+  }
+}
+
+void NanoscopeCurves::read_header() {
   const auto channels = force_channels(blocks_);
   deflection_ = channel_named(channels, {"deflection"});
   if (deflection_ == nullptr) {
@@ -213,11 +185,19 @@ NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks
   sensor_ = channel_named(channels, {"height sensor", "zsensor", "z sensor"});
   lengths_ = lengths_of(*deflection_);
   hold_ = hold_of(blocks_);
-  volume_ = nanoscope_volume(bytes, blocks_);
+  volume_ = nanoscope_volume(bytes_, blocks_);
   const double length = nanoscope_number(*deflection_, "data length");
   // a ramp may have the image beside it in which its place was chosen
-  if (layout_of(*deflection_)) volume_.reset();
-  if (!volume_) return;
+  if (layout_of(*deflection_)) {
+    if (volume_ && volume_->image_is_cut) throw CutShort("its image is not whole");
+    volume_.reset();
+  }
+  if (volume_) find_curves(channels, length);
+  count_whole();
+}
+
+// Curves of a volume whose deflection has `length` bytes.
+void NanoscopeCurves::find_curves(const std::vector<const NanoscopeBlock*>& channels, double length) {
   if (is_peakforce_capture(blocks_)) {
     // the second of its lengths may be wrong
     lengths_.extend = lengths_.retract;
@@ -237,6 +217,23 @@ NanoscopeCurves::NanoscopeCurves(std::string_view bytes) : bytes_(bytes), blocks
     throw CurveError(fmt::format("its data are {:g} curves of two branches of {} points", count, lengths_.longer()));
   }
   count_ = static_cast<std::size_t>(count);
+}
+
+// The curves whose data the file has in every channel that is read.
+void NanoscopeCurves::count_whole() {
+  whole_ = count_;
+  for (const NanoscopeBlock* channel : {deflection_, sensor_}) {
+    const auto layout = channel != nullptr ? layout_of(*channel) : std::nullopt;
+    if (!layout) continue;
+    const double offset = nanoscope_number(*channel, "data offset"), size = static_cast<double>(bytes_.size());
+    const double behind = offset >= 0.0 ? std::max(size - offset, 0.0) : 0.0;
+    const double there = std::floor(behind / static_cast<double>(layout->points * layout->size));
+    if (there < static_cast<double>(whole_)) whole_ = static_cast<std::size_t>(there);
+  }
+}
+
+std::string NanoscopeCurves::whole_of_all() const {
+  return count_ == 1 ? std::string() : fmt::format("it has {} of its {} curves", whole_, count_);
 }
 
 // How the data of a channel are laid out; empty if they are no such curves. A hold is in all of its curves, or in none.
@@ -259,12 +256,13 @@ std::optional<NanoscopeCurves::Layout> NanoscopeCurves::layout_of(const Nanoscop
 
 NanoscopeCurves::Layout NanoscopeCurves::known_layout(const NanoscopeBlock& channel) const {
   if (const auto layout = layout_of(channel)) return *layout;
+  if (!nanoscope_header_ends(bytes_)) throw CutShort(kNoHeaderEnd);
   const std::string curves =
       volume_ ? fmt::format("{} x {} curves of ", volume_->columns, volume_->rows) : std::string();
   const std::string hold = hold_ > 0 ? fmt::format(", with {} points of a hold or without", hold_) : std::string();
   throw CurveError(fmt::format(
       "its channel {} has {:g} bytes, which are not {}two branches of {} points{}; volumes that were stopped are not "
-      "read",
+      "read: save their curves one by one in Nanoscope Analysis",
       nanoscope_channel(channel), nanoscope_number(channel, "data length"), curves, lengths_.longer(), hold));
 }
 
@@ -272,10 +270,9 @@ NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, s
   const Layout layout = known_layout(channel);
   const std::size_t size = layout.size, points = layout.points;
   const std::size_t half = lengths_.longer();
-  const double offset = nanoscope_number(channel, "data offset");
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes_.size()))) throw CutShort("it is cut short");
-  const std::string_view all = part(bytes_, static_cast<std::size_t>(offset), count_ * points * size);
-  const std::string_view data = all.substr(index * points * size, 2 * half * size);
+  if (index >= whole_) throw CutShort(whole_of_all());
+  const auto offset = static_cast<std::size_t>(nanoscope_number(channel, "data offset"));
+  const std::string_view data = part(bytes_, offset + index * points * size, 2 * half * size);
   const double lowest = -0.5 * std::pow(256.0, static_cast<double>(size));
   const double lowest_of_two = has_two_bytes(channel) ? std::numeric_limits<std::int16_t>::min() : lowest;
   const auto branch = [&](std::size_t first, std::size_t count) {
@@ -308,7 +305,7 @@ NanoscopeCurves::Signal NanoscopeCurves::heights(std::size_t index) const {
     return {{period.begin(), turn}, {turn, period.end()}, 0};
   }
   if (sensor_ == nullptr) {
-    const double step_m = ramp_length_m(*deflection_, blocks_) / static_cast<double>(lengths_.longer());
+    const double step_m = nanoscope_ramp_m(*deflection_, blocks_) / static_cast<double>(lengths_.longer());
     const double lowest_m = volume_ ? volume_->surface_m(index) : 0.0;
     Signal ramp;
     for (std::size_t i = lengths_.extend; i-- > 0;) ramp.extend.push_back(lowest_m + static_cast<double>(i) * step_m);
@@ -318,11 +315,11 @@ NanoscopeCurves::Signal NanoscopeCurves::heights(std::size_t index) const {
     return ramp;
   }
   const auto scale = hard_scale(sensor_->find("@4:z scale"));
-  const auto per_volt = scale ? length_sensitivity(blocks_, scale->soft_name) : std::nullopt;
+  const auto per_volt = scale ? nanoscope_metres_per_volt(blocks_, scale->soft_name) : std::nullopt;
   if (!per_volt)
     throw CurveError(fmt::format("it does not say how to convert its {} to metres", nanoscope_channel(*sensor_)));
   Signal heights = signal(*sensor_, index);
-  double factor = value_per_integer(*sensor_, heights.integer_size) * *per_volt;
+  double factor = nanoscope_value_per_integer(*sensor_, heights.integer_size) * *per_volt;
   if (is_sensed_period_) {
     heights.begin_at(0, factor);
     return heights;
@@ -365,7 +362,7 @@ RecordedCurve NanoscopeCurves::curve(std::size_t index, const CurveReading& read
     z.begin_at(sensed.first, sensed.sign);
     curve.metadata.remarks.emplace_back(kSensedPeriod);
   }
-  const double factor = value_per_integer(*deflection_, volts.integer_size) * per_volt;
+  const double factor = nanoscope_value_per_integer(*deflection_, volts.integer_size) * per_volt;
   std::size_t unrecorded = 0;
   const auto add_branch = [&](const std::vector<double>& z_m, const std::vector<double>& values,
                               physics::Branch branch) {
@@ -383,6 +380,7 @@ RecordedCurve NanoscopeCurves::curve(std::size_t index, const CurveReading& read
     curve.metadata.remarks.push_back(fmt::format("{} of its {} points were not recorded: they are left out", unrecorded,
                                                  unrecorded + curve.points.size()));
   }
+  if (whole_ < count_) curve.metadata.remarks.push_back(cut_short(whole_of_all()));
   if (swing_) {
     curve.metadata.remarks.push_back(fmt::format(
         "it is a period of PeakForce tapping: its heights are those of a swing of {:g} nm to either side, whose force "

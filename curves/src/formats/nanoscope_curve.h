@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +24,7 @@ inline constexpr std::string_view kNanoscopeForceMagic = "\\*Force file list";
 // those of the sensor, otherwise evenly spaced over the ramp, in a force volume above the height of the image at the
 // curve's pixel. A capture of PeakForce tapping has a period a curve (nanoscope_swing.h), which is turned so that it
 // begins half a period before the deepest point; its heights are those of its channel "Height Sensor" or "Height",
-// otherwise of the swing. Throws CurveError.
+// otherwise of the swing. Of a volume that is cut short the first curves are read. Throws CurveError.
 class NanoscopeCurves {
  public:
   // The bytes must outlive the object.
@@ -48,6 +49,10 @@ class NanoscopeCurves {
   };
   struct Signal;
 
+  void read_header();
+  void find_curves(const std::vector<const NanoscopeBlock*>& channels, double length);
+  void count_whole();
+  std::string whole_of_all() const;
   static Lengths lengths_of(const NanoscopeBlock& channel);
   static std::size_t hold_of(const std::vector<NanoscopeBlock>& blocks);
   std::optional<Layout> layout_of(const NanoscopeBlock& channel) const;
@@ -65,7 +70,7 @@ class NanoscopeCurves {
   std::optional<NanoscopeVolume> volume_;
   std::optional<NanoscopeSwing> swing_;  // PeakForce tapping without a channel of the height; empty: other curves
   bool is_sensed_period_ = false;        // PeakForce tapping with such a channel
-  std::size_t count_ = 1;
+  std::size_t count_ = 1, whole_ = 1;    // whole: the first ones, all unless the file is cut short
 };
 
 }  // namespace afm::curves

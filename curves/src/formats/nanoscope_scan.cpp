@@ -103,7 +103,7 @@ std::vector<double> heights_of(std::string_view bytes, const NanoscopeBlock& ima
     throw CurveError(
         fmt::format("its data have {:g} bytes; {} x {} points take {}", length, points.columns, points.rows, size));
   }
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort("it is cut short");
+  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort();
   const std::string_view data = part(bytes, static_cast<std::size_t>(offset), size);
   std::vector<double> values;
   values.reserve(count);
@@ -208,9 +208,8 @@ std::optional<NanoscopeVolume> nanoscope_volume(std::string_view bytes, const Bl
   if (list != nullptr && list->find("force/line") != nullptr) volume.columns = side_in(*list, "force/line");
   try {
     read_grid(bytes, *image, blocks, volume);
-  } catch (const CutShort&) {
-    throw;
   } catch (const CurveError& fault) {
+    volume.image_is_cut = dynamic_cast<const CutShort*>(&fault) != nullptr;
     volume.remarks.push_back(
         fmt::format("its image {} cannot be read, so that {} unknown: {}", nanoscope_channel(*image).substr(0, 40),
                     volume.grid ? "the heights of its curves are" : "the grid of its curves is", fault.what()));

@@ -54,6 +54,7 @@ struct NanoscopeVolume {
   std::vector<double> image_m;        // heights of the sample at these points; empty: unknown
   double turn_deg = 0;                // rotation of the scan
   std::vector<std::string> remarks;
+  bool image_is_cut = false;  // the file ends in the image
 
   // Height of the sample where a curve was taken; 0 if unknown.
   double surface_m(std::size_t curve) const;

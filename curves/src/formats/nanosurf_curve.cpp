@@ -25,7 +25,9 @@ std::optional<double> spring_constant_of(const NanosurfFile& file) {
   std::string_view text = lever == nullptr ? std::string_view() : lever->text("Prop0").value_or("");
   if (!text.starts_with("D[") || !text.ends_with("]*[N/m]")) return std::nullopt;
   text.remove_prefix(2);
-  const auto number = number_of(text.substr(0, text.find(']')));
+  text = text.substr(0, text.find(']'));
+  if (has_decimal_comma(text)) throw CurveError(decimal_comma_in("its spring constant", text));
+  const auto number = number_of(text);
   return number && *number > 0.0 && std::isfinite(*number) ? number : std::nullopt;
 }
 
@@ -95,7 +97,9 @@ CurveMetadata metadata_of(const NanosurfFile& file) {
 }  // namespace
 
 NanosurfCurves::NanosurfCurves(std::string_view bytes)
-    : file_(nanosurf_file(bytes, kMostInfos)), approach_(direction_of(kApproach)), retract_(direction_of(kRetract)) {
+    : file_(nanosurf_file(bytes, kMostInfos, NanosurfEnd::MayLack)),
+      approach_(direction_of(kApproach)),
+      retract_(direction_of(kRetract)) {
   if (approach_.force == nullptr) {
     throw CurveError("its spectroscopy has no channel \"Deflection\" and \"Z-Axis\": it is no force curve");
   }
@@ -106,6 +110,18 @@ NanosurfCurves::NanosurfCurves(std::string_view bytes)
       throw CurveError("its channels differ in their number of curves");
   }
   map_ = map_of();
+  whole_ = whole_curves();
+}
+
+// The curves whose lines the file has in all channels.
+std::size_t NanosurfCurves::whole_curves() const {
+  std::size_t whole = count_;
+  for (const NanosurfChannel* channel : {approach_.force, approach_.height, retract_.force, retract_.height}) {
+    if (channel == nullptr) continue;
+    const std::size_t line = whole_number(*channel->section, "Points") * nanosurf_integers(*channel->section).size;
+    if (line > 0) whole = std::min(whole, channel->numbers.size() / line);
+  }
+  return whole;
 }
 
 NanosurfCurves::Direction NanosurfCurves::direction_of(std::string_view group) const {
@@ -202,7 +218,10 @@ void NanosurfCurves::place(std::size_t index, CurveMetadata& metadata) const {
 }
 
 RecordedCurve NanosurfCurves::curve(std::size_t index, const CurveReading& reading) const {
+  const std::string there = count_ == 1 ? "" : fmt::format("it has {} of its {} curves", whole_, count_);
+  if (index >= whole_) throw CutShort(there);
   RecordedCurve curve{{}, {}, metadata_of(file_)};
+  if (whole_ < count_) curve.metadata.remarks.push_back(cut_short(there));
   const double newton = newton_per_unit(*approach_.force->section, reading, curve.metadata);
   add_branch(approach_, physics::Branch::Approach, index, newton, curve);
   const auto rest = std::find_if(file_.channels.begin(), file_.channels.end(),

@@ -17,7 +17,8 @@ namespace afm::curves {
 // Curves of Nanosurf's spectroscopy (.nid): the groups "Spec forward", the approach, and "Spec backward", the retract,
 // with a curve on each line of their channels, of which LineDimNPoints points were recorded. The force is the channel
 // "Deflection" in newtons, metres or volts, the height "Z-Axis Sensor", otherwise "Z-Axis". A map (Map0 = x0; x1; y0;
-// y1; columns; rows; ...) is recorded line by line, there and back. Throws CurveError.
+// y1; columns; rows; ...) is recorded line by line, there and back. Of a file that is cut short those curves are read
+// that are whole. Throws CurveError.
 class NanosurfCurves {
  public:
   // The bytes must outlive the object.
@@ -44,6 +45,7 @@ class NanosurfCurves {
   };
 
   Direction direction_of(std::string_view group) const;
+  std::size_t whole_curves() const;
   std::optional<Map> map_of() const;
   double newton_per_unit(const NanosurfSection& force, const CurveReading& reading, CurveMetadata& metadata) const;
   void add_branch(const Direction& from, physics::Branch branch, std::size_t index, double newton,
@@ -52,7 +54,7 @@ class NanosurfCurves {
 
   NanosurfFile file_;
   Direction approach_, retract_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, whole_ = 0;  // whole: the first ones, all unless the file is cut short
   std::optional<Map> map_;
 };
 

@@ -68,7 +68,7 @@ void check_count(const nlohmann::json& metadata, std::size_t points, std::string
   const double expected = count->get<double>();
   // a last line without a line end may have lost digits
   if (static_cast<double>(points) < expected)
-    throw CurveError(fmt::format("it is cut short: {} of {} points are there", points, expected));
+    throw CutShort(fmt::format("{} of {} points are there", points, expected));
   if (!bytes.ends_with('\n') && !bytes.ends_with('\r'))
     throw CurveError("its last line has no end, and may have lost digits; add a line end if it is whole");
 }

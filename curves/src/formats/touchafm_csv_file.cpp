@@ -73,10 +73,10 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
   // a complete cycle includes the way up, and its last line has a line end
   if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract ||
       !(bytes.ends_with('\n') || bytes.ends_with('\r'))) {
-    throw CurveError("it is cut short");
+    throw CutShort();
   }
   if (const auto count = static_cast<double>(curve.points.size()); samples > 0.0 && count != samples) {
-    throw CurveError(fmt::format("it is cut short: {} of {} samples are there", count, samples));
+    throw CutShort(fmt::format("{} of {} samples are there", count, samples));
   }
   return curve;
 }

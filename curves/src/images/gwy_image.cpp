@@ -38,7 +38,7 @@ class GwyReader {
   // Reads up to the NUL and skips it.
   std::string_view text() {
     const std::size_t end = rest_.find('\0');
-    if (end == std::string_view::npos) throw CurveError("it is cut short");
+    if (end == std::string_view::npos) throw CutShort();
     const std::string_view found = rest_.substr(0, end);
     rest_.remove_prefix(end + 1);
     return found;

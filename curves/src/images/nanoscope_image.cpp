@@ -57,7 +57,7 @@ std::string_view data_of(std::string_view bytes, const NanoscopeBlock& image, co
     throw CurveError(
         fmt::format("its data have {:g} bytes; {} x {} points take {}", length, points.columns, points.rows, whole));
   }
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort("it is cut short");
+  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort();
   const std::string_view data = part(bytes, static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
   return part(data, alone ? 0 : captured.first * line, captured.count * line);
 }
@@ -106,6 +106,7 @@ ImagePages read_nanoscope(std::string_view bytes) {
       if (found.metadata.size() < kMostImageMetadata) found.metadata.emplace_back(key, value);
     }
   }
+  if (found.pages.empty() && !nanoscope_header_ends(bytes)) throw CutShort(kNoHeaderEnd);
   return found;
 }
 

@@ -114,9 +114,15 @@ core::Result<physics::DrivenLever> read_lever(const ContactSetup& setup, const T
   return physics::driven_lever(contact.spring_constant, lever, {*amplitude, *drive});
 }
 
-// Once a second, of a curve that takes longer.
-physics::TapProgress logged_progress() {
-  return [told = std::chrono::steady_clock::now()](std::size_t done, std::size_t all) mutable {
+// A curve that its watch has ended.
+struct EndedTapping {
+  std::size_t done, all;
+};
+
+// Logged once a second, of a curve that takes longer.
+physics::TapProgress watched_progress(const TapWatch& watch) {
+  return [&watch, told = std::chrono::steady_clock::now()](std::size_t done, std::size_t all) mutable {
+    if (watch && !watch(done, all)) throw EndedTapping{done, all};
     const auto now = std::chrono::steady_clock::now();
     if (now - told < std::chrono::seconds(1)) return;
     told = now;
@@ -124,7 +130,8 @@ physics::TapProgress logged_progress() {
   };
 }
 
-core::Result<void> compute(const PathOptions& path, const TappingOptions& options, TappingRun& run) {
+core::Result<void> compute(const PathOptions& path, const TappingOptions& options, const TapWatch& watch,
+                           TappingRun& run) {
   const auto& contact = run.setup.material.contact;
   const auto lever = read_lever(run.setup, options);
   if (!lever) return tl::unexpected(lever.error());
@@ -150,7 +157,7 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
     if (!speed) return tl::unexpected(speed.error());
     run.path.speed = *speed;
   }
-  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, logged_progress());
+  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, watched_progress(watch));
   if (!run.curve.lost_at) return {};
   run.averages_lost_at = run.curve.lost_at;
   if (!options.method.empty()) {
@@ -160,11 +167,12 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
   core::log_line(fmt::format("no averages follow the swing at {}: integrating directly, which takes longer",
                              physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits)));
   run.method = physics::TapMethod::Direct;
-  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, logged_progress());
+  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, watched_progress(watch));
   return {};
 }
 
-core::Result<void> compute(const PathOptions& path, const TappingOptions& options, FrequencyShiftRun& run) {
+core::Result<void> compute(const PathOptions& path, const TappingOptions& options, const TapWatch& /*watch*/,
+                           FrequencyShiftRun& run) {
   const auto& [contact, lever] = std::tie(run.setup.material.contact, run.setup.material.lever);
   const auto amplitude = read_quantity("--amplitude", options.amplitude, physics::kLengthUnits);
   if (!amplitude) return tl::unexpected(amplitude.error());
@@ -186,7 +194,8 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
 
 // Steps common to both modes: model, checks and the viscosity; then the mode's computation.
 template <class Run>
-core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options) {
+core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options,
+                           const TapWatch& watch = {}) {
   Run run{};
   run.setup = setup;
   const auto viscosity = read_viscosity(options.viscosity);
@@ -196,9 +205,12 @@ core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, c
     physics::validate(setup.material.contact);
     run.place = setup.place();
     run.model = setup.used_model();
-    if (const auto done = compute(path, options, run); !done) return tl::unexpected(done.error());
+    if (const auto done = compute(path, options, watch, run); !done) return tl::unexpected(done.error());
   } catch (const std::invalid_argument& error) {
     return wrong_usage(error.what());
+  } catch (const EndedTapping& ended) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("the tapping curve was ended after {} of {} heights", ended.done, ended.all));
   }
   return run;
 }
@@ -235,9 +247,9 @@ core::Result<DrivenSample> driven_sample(const ContactSetup& setup, const Tappin
   }
 }
 
-core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path,
-                                     const TappingOptions& options) {
-  return computed<TappingRun>(setup, path, options);
+core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options,
+                                     const TapWatch& watch) {
+  return computed<TappingRun>(setup, path, options, watch);
 }
 
 core::Result<FrequencyShiftRun> run_frequency_shift(const ContactSetup& setup, const PathOptions& path,

@@ -19,13 +19,12 @@ namespace afm::exhibit {
 using glm::dmat4;
 using glm::dvec3;
 
-render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const dmat4& room_from_layout,
-                        const dvec3& touched_m) {
-  const auto vector = [&](double x, double y) { return dvec3(room_from_layout * glm::dvec4(x, y, 0.0, 0.0)); };
+render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const WallPlaces& places, const dvec3& touched_m) {
+  const auto vector = [&](double x, double y) { return dvec3(places.room_from_layout() * glm::dvec4(x, y, 0.0, 0.0)); };
   return {.text = cue_text(cue, phrases),
           .highlighted = false,
-          .placement = {.lower_left_m = touched_m + vector(kCuePlace.x, kCuePlace.y),
-                        .right_m = vector(kCueWidth, 0.0),
+          .placement = {.lower_left_m = touched_m + vector(places.cue_left(), kCuePlace.y),
+                        .right_m = vector(kCuePlace.x + kCueWidth - places.cue_left(), 0.0),
                         .up_m = vector(0.0, kCueHeight)}};
 }
 
@@ -38,6 +37,12 @@ void add_journey_labels(const Journey& journey, const WallPlaces& places, const 
          .highlighted = false,
          .placement = places.in_scene(kGapLabelRight - kGapLabelWidth, middle - 0.5 * kGapLabelHeight, kGapLabelWidth,
                                       kGapLabelHeight)});
+  }
+  if (orders >= kApexFromOrders && orders < kApexToOrders) {
+    frame.labels.push_back({.text = phrases[Phrase::PlaceApex],
+                            .highlighted = false,
+                            .placement = places.in_wall(-0.5 * kApexLabelWidth, kApexLabelBottom, kApexLabelWidth,
+                                                        kCompanionLabelHeight)});
   }
   const auto here = static_cast<std::size_t>(std::lround(orders));
   constexpr auto kRungs = static_cast<std::size_t>(kJourneyOrders) + 1;

@@ -15,10 +15,10 @@
 namespace afm::exhibit {
 
 // Beside the place where the tip touches, in the wall's plane; moves with the sample, not with the tip.
-render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const glm::dmat4& room_from_layout,
+render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const WallPlaces& places,
                         const glm::dvec3& touched_m);
 
-// The ladder of ten powers with the rung where one is, and the gap below the last atom.
+// The ladder of ten powers with the rung where one is, the gap below the last atom, and the apex above the picture.
 void add_journey_labels(const Journey& journey, const WallPlaces& places, const Phrases& phrases, double orders,
                         render::FrameState& frame);
 

@@ -45,25 +45,36 @@ ScaleBar scale_bar(double m_per_unit, double longest) {
 
 WallMarks::WallMarks(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout, scene::NodeIndex sample) {
   build.model("marks.glb", "marks", layout);
-  ruler_ = build.node("marks/line");
+  ruler_.line = build.node("marks/line");
   push_ = {build.node("marks/push"), build.node("marks/push-head")};
   pull_ = {build.node("marks/pull"), build.node("marks/pull-head")};
   if (build.error()) return;
-  scene.nodes[ruler_].parent = layout;
+  scene.nodes[ruler_.line].parent = layout;
   for (const scene::NodeIndex node : {push_.line, push_.head, pull_.line, pull_.head})
     scene.nodes[node].parent = sample;
-  ruler_low_ = another(scene, ruler_, "marks/low", layout);
-  ruler_high_ = another(scene, ruler_, "marks/high", layout);
-  unbent_ = another(scene, ruler_, "marks/unbent", sample);
+  const auto pale = [&](const char* name, scene::NodeIndex parent) {
+    return another(scene, ruler_.line, fmt::format("marks/{}", name), parent);
+  };
+  ruler_.low = pale("low", layout);
+  ruler_.high = pale("high", layout);
+  gap_ = {pale("gap", layout), pale("gap-low", layout), pale("gap-high", layout)};
+  unbent_ = pale("unbent", sample);
   scan_line_ = another(scene, push_.line, "marks/scan", sample);
 }
 
-void WallMarks::place_ruler(const ScaleBar& bar, std::vector<dmat4>& local) const {
-  const dvec3 low = kRulerFoot, high = kRulerFoot + dvec3(0.0, bar.drawn, 0.0);
+void WallMarks::Bar::place(const dvec3& from, const dvec3& to, std::vector<dmat4>& local) const {
   const dvec3 reach(kRulerTick, 0.0, 0.0);
-  local[ruler_] = stretched(low, high, kRulerRadius);
-  local[ruler_low_] = stretched(low - reach, low + reach, kRulerRadius);
-  local[ruler_high_] = stretched(high - reach, high + reach, kRulerRadius);
+  local[line] = stretched(from, to, kRulerRadius);
+  local[low] = stretched(from - reach, from + reach, kRulerRadius);
+  local[high] = stretched(to - reach, to + reach, kRulerRadius);
+}
+
+void WallMarks::place_ruler(const ScaleBar& bar, std::vector<dmat4>& local) const {
+  ruler_.place(kRulerFoot, kRulerFoot + dvec3(0.0, bar.drawn, 0.0), local);
+}
+
+void WallMarks::place_gap(const dvec3& low, const dvec3& high, std::vector<dmat4>& local) const {
+  gap_.place(low, high, local);
 }
 
 void WallMarks::place_unbent(const dvec3& clamp, const dvec3& end, std::vector<dmat4>& local) const {

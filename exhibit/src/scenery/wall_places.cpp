@@ -53,6 +53,7 @@ WallPlaces::WallPlaces(const StagePlace& stage, std::size_t swatches) {
   wall_bottom_ = -contact.height_m / unit;
   lay_out_front(stage);
   lay_out_panels(stage);
+  lay_out_cue(stage);
   lay_out_height_bar(stage, swatches);
 }
 
@@ -164,6 +165,23 @@ glm::dvec3 WallPlaces::swatch(std::size_t i, std::size_t count) const {
   };
   if (i < front) return {across(i, front, kSwatchSpacing), shelf_y_, shelf_z_};
   return {across(i - front, count - front, kBackSpacing), shelf_y_ + kBackRise, back_z_};
+}
+
+// Before a screen that lies, the plate leans towards the viewer and is seen larger than the panel beside it.
+void WallPlaces::lay_out_cue(const StagePlace& stage) {
+  if (shape_.arrangement != Arrangement::Beside) return;
+  const glm::dmat4 layout_from_room = glm::inverse(room_from_layout_);
+  const dvec3 eye(layout_from_room * glm::dvec4(stage.viewer_m, 1.0));
+  const dvec3 corner(layout_from_room * glm::dvec4(force_placement_.lower_left_m + force_placement_.right_m, 1.0));
+  const dvec3 out(layout_from_room * glm::dvec4(glm::cross(force_placement_.right_m, force_placement_.up_m), 0.0));
+  const double beside_eye = 0.5 * stage.ipd_m / shape_.unit_m;
+  for (const double y : {kCuePlace.y, kCuePlace.y + kCueHeight}) {
+    for (const double x : {eye.x - beside_eye, eye.x + beside_eye}) {
+      // the panel's right edge and the plate are seen one above the other where the sight reaches the panel's plane
+      const double nearer = glm::dot(out, corner - eye) / glm::dot(out, dvec3(0.0, y, 0.0) - eye);
+      cue_left_ = std::max(cue_left_, x + (corner.x + kCueGap - x) / nearer);
+    }
+  }
 }
 
 // Left of all swatches that seem to be at its height, as far as the wall leaves room for the numbers.

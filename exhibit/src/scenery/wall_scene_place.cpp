@@ -118,20 +118,18 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
   if (state.centerpiece == Centerpiece::Analogy) analogy_.place(analogy_heights(state), local);
   if (state.centerpiece == Centerpiece::Journey) {
     journey_.place(state.journey_orders, places_.eye_above_rad(), local);
+    marks_.place_gap(dvec3(0.0), journey_.gap_m() * dvec3(local[journey_.frame()][2]), local);
   }
   return local;
 }
 
 // The sample at its true proportions, with the stage below it. Its size does not depend on the tip's parameters: the
-// ruler and the scale line do.
+// ruler and the scale line do. Without a sample, the stage is below the first one's place.
 void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) const {
-  double thickness = 0.0;
-  if (state.material) {
-    const MaterialLook& look = looks_[*state.material];
-    const double per_m = kStrokeHeight / look.surface_stroke_m;
-    local[look.sample] = glm::scale(dmat4(1.0), dvec3(per_m)) * local[look.sample];
-    thickness = look.thickness_m * per_m;
-  }
+  const MaterialLook& look = looks_[state.material.value_or(0)];
+  const double per_m = kStrokeHeight / look.surface_stroke_m;
+  if (state.material) local[look.sample] = glm::scale(dmat4(1.0), dvec3(per_m)) * local[look.sample];
+  double thickness = look.thickness_m * per_m;
   if (state.centerpiece == Centerpiece::Analogy) thickness = analogy_.plate_thickness();
   instrument_.place_stage(scene_, thickness, local);
 }
@@ -175,6 +173,7 @@ std::vector<scene::NodeIndex> WallScene::hidden_roots(const WallState& state) co
     for (const scene::NodeIndex part : instrument_.swing()) hide({part});
   }
   if (ruler_m_per_unit(state) == 0.0) hide(marks_.ruler_nodes());
+  if (state.centerpiece != Journey || state.journey_orders < kGapFromOrders) hide(marks_.gap_nodes());
   if (particles_) {
     const bool shown = state.centerpiece == Instrument && state.material;
     if (!shown) hide(particles_->nodes());
@@ -293,8 +292,7 @@ void WallScene::place_marks(const WallState& state, render::FrameState& frame) c
   frame.contact.ring_color = ring.color;
   frame.contact.ring_radius_m = static_cast<float>(ring.radius) * frame.contact.shade_radius_m;
   if (magnet) return;
-  frame.labels.push_back(
-      cue_label(*state.cue, phrases_, places_.room_from_layout(), dvec3(frame.room_from_node[sample_frame_][3])));
+  frame.labels.push_back(cue_label(*state.cue, phrases_, places_, dvec3(frame.room_from_node[sample_frame_][3])));
 }
 
 void WallScene::lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const {

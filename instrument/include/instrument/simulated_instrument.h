@@ -84,9 +84,10 @@ class SimulatedInstrument {
   };
   core::Result<Curve> curve(const CurveRequest& request);
 
-  // Tapping curve of the contact as it is, without noise. Fails as curves::run_tapping().
+  // Tapping curve of the contact as it is, without noise; `watch` may end it. Fails as curves::run_tapping().
   core::Result<curves::TappingRun> tapping_curve(const std::optional<double>& z_from_m,
-                                                 const std::optional<double>& z_to_m, std::size_t points);
+                                                 const std::optional<double>& z_to_m, std::size_t points,
+                                                 const curves::TapWatch& watch = {});
 
   struct Frame {
     double width_m, height_m;

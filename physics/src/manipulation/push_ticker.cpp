@@ -70,7 +70,7 @@ PushedParticles::Ticker::Ticker(const PushSetup& setup, const std::vector<Placed
   base_ = {start.position.x.si, start.position.y.si, start.z.si};
   apex_ = {base_.x, base_.y, std::max(0.0, base_.height)};
   tick_.stored = tick_.given = Energy(stored_everywhere());
-  left_.work = kHeapLooks;
+  left_.work = setup_.heap_looks;
   sub_step(base_);
   publish();
 }
@@ -98,7 +98,7 @@ void PushedParticles::Ticker::advance(const Apex& to) noexcept {
   const int steps = tick_.lagging ? kMostSubSteps : std::max(1, static_cast<int>(std::ceil(needed)));
   const double share = tick_.lagging ? reach_.base_m / way_m : 1.0 / steps;
   const Apex from = base_;
-  left_.work = kHeapLooks;
+  left_.work = setup_.heap_looks;
   for (int i = 1; i <= steps; ++i) {
     left_.heap_steps = (steps - i + 1) * kHeapSplit;
     const double at = i * share;

@@ -35,7 +35,9 @@ struct Walked {
 // From rest at one height to rest at another, along the branch as far as it goes.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
                   Walked& walked) {
-  constexpr int kMostFalseFolds = 4;     // more show that averages are no way to follow this swing
+  // More false folds, or halvings of the step, of which a fold takes 40, show that averages are no way to follow this
+  // swing.
+  constexpr int kMostFalseFolds = 4, kMostHalvings = 1000;
   constexpr double kFoldError = 1e-18;   // m
   constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
   const double way = to.si - from.si;
@@ -46,6 +48,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     return;
   }
   double at = from.si, step = way;
+  int halvings = 0;
   while (at != to.si) {
     const double next = std::abs(to.si - at) <= std::abs(step) ? to.si : at + step;
     if (flow.follow(state, Length(next))) {
@@ -54,6 +57,10 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
       continue;
     }
     step *= 0.5;
+    if (++halvings > kMostHalvings && !flow.is_as_felt()) {
+      curve.lost_at = Length(at);
+      return;
+    }
     if (std::abs(step) > kFoldError) continue;
     const Length fold(at), beyond(at + std::copysign(kBeyondFold, way));
     const TapState landed = flow.settle(state, beyond).state;

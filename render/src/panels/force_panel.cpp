@@ -97,7 +97,8 @@ void paint_number(Canvas& canvas, std::string_view text, float right, float top,
 // Draws title, part of the cycle and the force now: side by side, or on a narrow panel below each other. Returns the
 // lower end.
 float paint_heading(Canvas& canvas, const ForcePanel& panel) {
-  constexpr float kPlain = 146.0F, kApart = 30.0F, kLeastShrunk = 0.75F, kWhole = 162.0F, kLine = 56.0F;
+  constexpr float kPlain = 146.0F, kApart = 30.0F, kLeastShrunk = 0.75F, kLine = 56.0F, kTail = 16.0F;
+  const float whole = 162.0F + (panel.words.decimal_mark == ',' ? kTail : 0.0F);  // below the digits, or a comma
   const float width = canvas.size_mm().x - 2.0F * kMargin, right = kMargin + width;
   const auto heading = [&](float room) {
     paint_title(canvas, {kMargin, 24.0F}, panel.title, room);
@@ -111,13 +112,13 @@ float paint_heading(Canvas& canvas, const ForcePanel& panel) {
   if (room > kLeastShrunk * canvas.text_width_mm(TextStyle::Title, panel.title)) {
     heading(room);
     paint_number(canvas, panel.live, right, kFigureTop, width - room - kApart);
-    return kWhole;
+    return whole;
   }
   const float half = 0.5F * (width - kApart);
   canvas.shrunk_text({kMargin, 20.0F}, TextStyle::Body, palette::kInk, panel.title, half);
   canvas.shrunk_text({kMargin + half + kApart, 20.0F}, TextStyle::Body, palette::kYellow, panel.stage, half);
   paint_number(canvas, panel.live, right, kFigureTop + kLine, width);
-  return kWhole + kLine;
+  return whole + kLine;
 }
 
 // Draws columns from `top` down: small names with the values below them. Returns the lower end.
@@ -313,9 +314,10 @@ void paint_markers(Canvas& canvas, const Plot& plot, const std::vector<PlotMarke
     if (!in_range(plot, marker) || marker.label.empty()) {
       continue;
     }
-    canvas.rectangle(box->from, box->to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
-    canvas.text(box->from + glm::vec2(6.0F, 2.0F), TextStyle::Small, palette::kInk, marker.label);
-    ++box;
+    const LabelBox& place = *box++;
+    if (place.empty()) continue;
+    canvas.rectangle(place.from, place.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
+    canvas.text(place.from + glm::vec2(6.0F, 2.0F), TextStyle::Small, palette::kInk, marker.label);
   }
 }
 

@@ -2,7 +2,6 @@
 #include "panels/marker_layout.h"
 
 #include <algorithm>
-#include <optional>
 
 namespace afm::render {
 namespace {
@@ -43,10 +42,9 @@ LabelBox moved_right_of(const LabelBox& obstacle, const LabelBox& box) {
 
 void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken) {
   for (const MarkerLabel& label : labels) {
-    std::optional<LabelBox> first, free;
+    LabelBox free;
     offer_places(label, plot, [&](const glm::vec2& from) {
       const LabelBox box{from, from + label.size};
-      if (!first) first = box;
       const bool inside =
           from.x >= plot.from.x && from.y >= plot.from.y && box.to.x <= plot.to.x && box.to.y <= plot.to.y;
       if (!inside || std::any_of(taken.begin(), taken.end(), [&](const LabelBox& t) { return overlap(box, t); })) {
@@ -55,7 +53,7 @@ void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std
       free = box;
       return true;
     });
-    taken.push_back(free ? *free : first.value_or(LabelBox{plot.from, plot.from + label.size}));
+    taken.push_back(free);
   }
 }
 

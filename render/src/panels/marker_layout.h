@@ -13,6 +13,8 @@ namespace afm::render {
 struct LabelBox {
   glm::vec2 from{0.0F};
   glm::vec2 to{0.0F};
+
+  bool empty() const { return from == to; }
 };
 
 bool overlap(const LabelBox& a, const LabelBox& b);
@@ -27,7 +29,8 @@ struct MarkerLabel {
 };
 
 // Adds one box for each label, in order, inside `plot`. Each box lies next to its line where it covers nothing in
-// `taken`, earlier labels included. A label without such a position keeps its preferred one.
+// `taken`, earlier labels included. A label without such a position has an empty box and is not drawn: where letters
+// are large, the line alone says more than two labels one over the other.
 void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken);
 
 }  // namespace afm::render

@@ -329,8 +329,10 @@ void paint(Canvas& canvas, const Banner& banner) {
   // an optional second line of the scale
   const bool two_lines = banner.scale.find('\n') != std::string::npos;
   const float third = two_lines ? text_height_mm(TextStyle::Body) + 8.0F : 0.0F;
-  const float content = text_height_mm(TextStyle::Guidance) + 16.0F + text_height_mm(TextStyle::Body) + third;
-  const float top = std::max(12.0F, 0.5F * (canvas.size_mm().y - content));
+  constexpr float kGap = 16.0F, kLeast = 8.0F;  // between the lines; least distance there and to the edges
+  const float content = text_height_mm(TextStyle::Guidance) + kGap + text_height_mm(TextStyle::Body) + third;
+  const float spare = canvas.size_mm().y - content;
+  const float top = std::max(kLeast, 0.5F * spare);
   const float right = canvas.size_mm().x - kMargin;
   const Plate state =
       banner.state_word.empty() ? Plate{{right, top}, {right, top}} : paint_state(canvas, banner, right, top + 2.0F);
@@ -339,9 +341,10 @@ void paint(Canvas& canvas, const Banner& banner) {
   const float lift = 0.5F * (1.0F - scale) * text_height_mm(TextStyle::Guidance);
   canvas.text({kMargin, top + lift}, TextStyle::Guidance, palette::kInk, banner.guidance, Align::Left, scale);
 
-  const float second = top + text_height_mm(TextStyle::Guidance) + 16.0F;
+  const float second = top + text_height_mm(TextStyle::Guidance) + std::clamp(kGap + spare, kLeast, kGap);
   // the lines below shrink to make room for the guidance
-  const float lower = std::clamp((canvas.size_mm().y - second) / (text_height_mm(TextStyle::Body) + third), 0.1F, 1.0F);
+  const float left = canvas.size_mm().y - kLeast - second;
+  const float lower = std::clamp(left / (text_height_mm(TextStyle::Body) + third), 0.1F, 1.0F);
   const bool beside_state = state.to.y > second;  // the enlarged state reaches down to these lines
   const float end_mm = beside_state ? state.from.x - 24.0F : right;
   const float whole = end_mm - kMargin;

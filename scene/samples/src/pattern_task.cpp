@@ -33,7 +33,15 @@ void PatternTask::take_back() {
     task_ = earlier_.back();
     earlier_.pop_back();
   }
+  if (task_.score.state == TaskState::Done && task_.kept_strokes < task_.done_strokes) go_on();
   if (task_.score.state == TaskState::Running) ++task_.score.undos;
+}
+
+// The pattern is no longer what it was at the end.
+void PatternTask::go_on() {
+  task_.score.state = TaskState::Running;
+  task_.score.rms_m = 0.0;
+  rest_.reset();
 }
 
 void PatternTask::put_back() {
@@ -107,6 +115,7 @@ void PatternTask::end(physics::Length rms) {
   task_.score = rest_->score;
   task_.score.state = TaskState::Done;
   task_.score.rms_m = rms.si;
+  task_.done_strokes = task_.kept_strokes;
   task_.score.time_s = 1e-9 * static_cast<double>(rest_->lifted_ns - task_.begun_ns);
 }
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "app/analyse/reading_options.h"
@@ -155,11 +156,19 @@ TEST(AnalyseCommand, SaysHowATableIsRead) {
 
 TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
   EXPECT_DOUBLE_EQ(parse_sensitivity("70nm/V").value(), 70e-9);
-  for (const char* wrong : {"70nm", "70/V", "/V", "V", "-70nm/V", "0nm/V"}) {
+  const std::vector<std::pair<const char*, const char*>> refused{
+      {"70nm", "\"nm\" is not its unit"},
+      {"70/V", "is not its unit"},
+      {"/V", "it does not begin with a number"},
+      {"70", "it has no unit"},
+      {"-70nm/V", "is not above 0"},
+      {"0nm/V", "is not above 0"},
+      {"0,05um/V", "it has a decimal comma; write a decimal point"}};
+  for (const auto& [wrong, why] : refused) {
     const auto sensitivity = parse_sensitivity(wrong);
     ASSERT_FALSE(sensitivity.has_value()) << wrong;
     EXPECT_EQ(sensitivity.error().category, core::ErrorCategory::WrongUsage);
-    EXPECT_THAT(sensitivity.error().message, HasSubstr("not a deflection per volt"));
+    EXPECT_THAT(sensitivity.error().message, HasSubstr(why));
   }
 }
 

@@ -101,6 +101,8 @@ TEST(AnalyseCommand, RefusesABaselineThatIsNone) {
     expect_refusal(run_touchafm(std::string("analyse x.tab --baseline-range ") + range), 2,
                    "is not a range of distances");
   }
+  expect_refusal(run_touchafm("analyse x.tab --baseline-range 0,1um:1,5um"), 2,
+                 "such as 0um:1.5um, with decimal points");
   expect_refusal(run_touchafm("analyse " + data("bom.tab") + " --baseline-range 1mm:2mm"), 3,
                  "the range of the baseline has 0 points of the approach");
 }

@@ -126,6 +126,21 @@ TEST(TappingCommand, IntegratesDirectlyWhereNoAveragesFollowTheSwing) {
   EXPECT_THAT(refusal(choice, contact, path), HasSubstr("no averages follow the swing at 3.2"));
 }
 
+// Pressed into the sample, Newton's method went on by 1e-15 m at a time, without an end
+TEST(TappingCommand, GivesUpAveragesThatAreFollowedInTooSmallSteps) {
+  curves::ContactOptions contact;
+  contact.assets_dir = support::source("assets");
+  contact.material = "mica";
+  contact.model = "dmt";
+  contact.values = {{"spring-constant", "40N/m"}, {"resonance", "300kHz"}, {"quality-factor", "400"}};
+  curves::TappingChoice choice;
+  choice.mode = "tapping";
+  choice.numbers.free_amplitude = "20nm";
+  choice.numbers.method = "averaged";
+  const curves::PathOptions path{.from = "2.2e-08 m", .to = "-2e-08 m", .step = "2.2105263157894737e-09 m"};
+  EXPECT_THAT(refusal(choice, contact, path), HasSubstr("no averages follow the swing at "));
+}
+
 TEST(TappingSweep, MapsTheStatesOverFreeAmplitudeAndHeight) {
   const auto points = swept({"free-amplitude=10nm:20nm:2", "z=5nm:17.4149nm:2"});
   ASSERT_EQ(points.size(), 4U) << points;

@@ -279,6 +279,29 @@ TEST(MapLaw, HasOneEnergyAtTheJumpInAndNoMoreAfterTheJumpOffAnywhere) {
   }
 }
 
+// Reference case M01, with 20 mm and 1 N of the hand for 2 nm and 1 nN of the tip.
+TEST(MapLaw, PaysWithItsSidewaysForceForAStifferPlace) {
+  constexpr double kMPerM = 1e7, kNPerN = 1e9, kJPerJ = kMPerM * kNPerN, kDepthM = 2e-9, kRadiusM = 20e-9;
+  const auto hertz = [](double reduced_pa) {
+    const auto force_n = [reduced_pa](double height_m) {
+      return kNPerN * 4.0 / 3.0 * reduced_pa * std::sqrt(kRadiusM) * std::pow(std::max(-height_m / kMPerM, 0.0), 1.5);
+    };
+    return MapLaw::Law{force_n, force_n, 0.0, 0.0};
+  };
+  const MapLaw law({hertz(1e9), hertz(3e9)}, 2, {-0.03, 0.08});
+  const auto at = [&](double column) {
+    return law.at(Phase::Attached, {.at = {column, 0.0}, .column_slope = {1.0, 0.0}}, -kMPerM * kDepthM);
+  };
+  EXPECT_NEAR(at(-0.5).energy_j, 1.349238468e-17 * kJPerJ, 1e-4 * 1.349238468e-17 * kJPerJ);
+  EXPECT_NEAR(at(1.5).energy_j, 4.047715405e-17 * kJPerJ, 1e-4 * 4.047715405e-17 * kJPerJ);
+  double sideways_j = 0.0;
+  constexpr int kSteps = 200;
+  for (int i = 0; i < kSteps; ++i) sideways_j += 2.0 / kSteps * at(-0.5 + 2.0 * (i + 0.5) / kSteps).sideways_n.x;
+  // a hand that goes in at the soft place and out at the stiff one would gain as much
+  EXPECT_NEAR(sideways_j, -2.698476937e-17 * kJPerJ, 1e-4 * 2.698476937e-17 * kJPerJ);
+  EXPECT_NEAR(sideways_j, at(-0.5).energy_j - at(1.5).energy_j, 1e-12);
+}
+
 TEST(MapLaw, KeepsTheForceOfABranchBeyondItsJump) {
   const MapLaw law({{.free_n = [](double height_m) { return -10.0 * height_m; },
                      .attached_n = [](double height_m) { return -20.0 * height_m; },

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -39,6 +40,7 @@ constexpr Crowd kCrowds[] = {{"one", 1, 2.0, 0.4},
                              {"rods", 9, 2.3, 0.1, 1.0},
                              {"rods among spheres", 25, 2.1, 0.1, 0.3}};
 constexpr Length kRodLength{120e-9};
+constexpr std::array kBudgets{kHeapLooks, 24.0, 8.0, 1.0};  // looks of a tick, also so few that no heap settles
 
 ParticleSpecies random_rod(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
@@ -165,6 +167,7 @@ class StrayingHand {
 void expect_certified(const Crowd& crowd, std::uint64_t seed, int ticks, long& touched) {
   std::mt19937_64 random(seed);
   PushSetup setup = random_setup(random);
+  setup.heap_looks = kBudgets.at(seed % kBudgets.size());
   if (crowd.rods > 0.0) setup.species.push_back(random_rod(random));
   const double pitch = 100e-9 * crowd.spacing;
   const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(crowd.particles))));

@@ -46,6 +46,11 @@ struct LeverOptions {
   CurveReading curve_reading;
   std::optional<double> bandwidth_hz;
   std::vector<InputUncertainty> uncertainties;
+
+  // Limits of the numbers above that are no inputs.
+  static constexpr double kLeastAverages = 1.0, kMostAverages = 1e9;
+  static constexpr int kHighestMode = 10;
+  static constexpr double kLeastBandwidthHz = 1e-3, kMostBandwidthHz = 1e8;
 };
 
 // A spring constant, and the standard uncertainty by those of the inputs, to the first order.

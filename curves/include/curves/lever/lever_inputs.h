@@ -46,9 +46,10 @@ class LeverInputs {
 
 namespace lever_units {
 
-inline constexpr std::array kSensitivities{physics::Unit{"um/V", 1e6, true}, physics::Unit{"\u00b5m/V", 1e6, false},
-                                           physics::Unit{"\u03bcm/V", 1e6, false}, physics::Unit{"nm/V", 1e9, true},
-                                           physics::Unit{"pm/V", 1e12, true}};
+inline constexpr std::array kSensitivities{
+    physics::Unit{"um/V", 1e6, true}, physics::Unit{"\u00b5m/V", 1e6, false}, physics::Unit{"\u03bcm/V", 1e6, false},
+    physics::Unit{"nm/V", 1e9, true}, physics::Unit{"pm/V", 1e12, true},      physics::Unit{"mm/V", 1e3, false},
+    physics::Unit{"m/V", 1.0, false}};
 // 1000^1.3: coefficients are usual for frequencies in kilohertz, too
 inline constexpr std::array kGciCoefficients{physics::Unit{"N/m/kHz^1.3", 7943.282347242815, true},
                                              physics::Unit{"N/m/Hz^1.3", 1.0, true}};

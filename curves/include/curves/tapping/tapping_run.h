@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,9 +73,15 @@ struct FrequencyShiftRun {
 // the van der Waals attraction is F_ad (physics/van_der_waals.h). UnphysicalValue's text as WrongUsage.
 core::Result<physics::SurfaceEnergy> work_of_adhesion_for(const ContactSetup& setup, physics::Length contact_gap);
 
+// Called after each height of a curve with the number of those that are done and of all; false ends it. The count
+// begins again where a curve that has lost its averages is integrated directly.
+using TapWatch = std::function<bool(std::size_t done, std::size_t all)>;
+
 // Both take setups whose model is `driven`. WrongUsage for malformed texts and values, for a law that gives no force as
-// a function of the height, and for a path that is too long to compute.
-core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options);
+// a function of the height, and for a path that is too long to compute. Failed for a curve that `watch`, if there is
+// one, has ended.
+core::Result<TappingRun> run_tapping(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options,
+                                     const TapWatch& watch = {});
 core::Result<FrequencyShiftRun> run_frequency_shift(const ContactSetup& setup, const PathOptions& path,
                                                     const TappingOptions& options);
 

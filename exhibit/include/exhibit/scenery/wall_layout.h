@@ -89,6 +89,7 @@ inline constexpr double kForceHeadLength = 0.065, kForceHeadRadius = 0.026;
 // word and number of a jump, left of the tip, over the sample and below the lever; lower left corner
 inline constexpr glm::dvec2 kCuePlace(-0.73, 0.075);
 inline constexpr double kCueWidth = 0.54, kCueHeight = 0.10;
+inline constexpr double kCueGap = 0.01;        // distance to the panel at its left, as seen
 inline constexpr double kShadeRadius = 0.085;  // soft shade at the contact
 // the scan line, over the sample
 inline constexpr double kScanLineRadius = 0.004;
@@ -104,10 +105,13 @@ inline constexpr double kAnalogyLabelHeight = 0.075;
 inline constexpr double kAnalogyLabelGap = 0.16;
 inline constexpr glm::dvec3 kAnalogyPlateLabel(0.0, -0.382, -0.07);  // in the sample's frame, on the plate's front
 inline constexpr double kCompanionLabelWidth = 0.44, kCompanionLabelHeight = 0.075;  // in the journey
-// the ladder of ten powers at the left, and the name of the gap, beside the tip
+// the ladder of ten powers at the left, and the name of the gap, beside its bar
 inline constexpr double kRungWidth = 0.24, kRungHeight = 0.075, kRungPitch = 0.088, kLowestRung = -0.10;
-inline constexpr double kGapLabelWidth = 0.34, kGapLabelHeight = 0.075, kGapLabelRight = -0.20;
+inline constexpr double kGapLabelWidth = 0.34, kGapLabelHeight = 0.075, kGapLabelRight = -0.05;
 inline constexpr double kGapFromOrders = 8.4;
+// the name of the apex, whose underside is all that is seen above the sample at these scales
+inline constexpr double kApexFromOrders = 7.8, kApexToOrders = 8.75;
+inline constexpr double kApexLabelBottom = 0.40, kApexLabelWidth = 0.60;
 inline constexpr float kFogBegin = 3.5F, kFogEnd = 14.0F;  // distances behind the wall in the journey
 inline constexpr double kBannerHeight = 0.21;
 // extent of the wall below and above the contact point: the whole shelf is visible, and the banner is above panels and

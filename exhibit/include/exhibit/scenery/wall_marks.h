@@ -44,16 +44,26 @@ class WallMarks {
   // Places the scan line over the sample, in layout units of the sample's frame.
   void place_scan_line(const glm::dvec3& from, const glm::dvec3& to, std::vector<glm::dmat4>& local) const;
 
-  // Nodes to hide together: with the instrument, without a scan, and without a scale.
+  // Places a line with a stroke across each end over the gap below the journey's last atom, in layout units.
+  void place_gap(const glm::dvec3& low, const glm::dvec3& high, std::vector<glm::dmat4>& local) const;
+
+  // Nodes to hide together: with the instrument, without a scan, without a scale, and far from the atoms.
   std::vector<scene::NodeIndex> lever_nodes() const;
   scene::NodeIndex scan_line_node() const { return scan_line_; }
-  std::vector<scene::NodeIndex> ruler_nodes() const { return {ruler_, ruler_low_, ruler_high_}; }
+  std::vector<scene::NodeIndex> ruler_nodes() const { return {ruler_.line, ruler_.low, ruler_.high}; }
+  std::vector<scene::NodeIndex> gap_nodes() const { return {gap_.line, gap_.low, gap_.high}; }
 
  private:
   struct Arrow {
     scene::NodeIndex line = 0, head = 0;
   };
-  scene::NodeIndex ruler_ = 0, ruler_low_ = 0, ruler_high_ = 0, unbent_ = 0, scan_line_ = 0;
+  // A line between two strokes.
+  struct Bar {
+    scene::NodeIndex line = 0, low = 0, high = 0;
+    void place(const glm::dvec3& from, const glm::dvec3& to, std::vector<glm::dmat4>& local) const;
+  };
+  Bar ruler_, gap_;
+  scene::NodeIndex unbent_ = 0, scan_line_ = 0;
   Arrow push_, pull_;
 };
 

@@ -28,6 +28,8 @@ class WallPlaces {
   double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
   double height_bar_x() const { return height_bar_x_; }
+  // Left end of the plate with the word and number of a jump, which no eye sees over the left panel.
+  double cue_left() const { return cue_left_; }
   render::PanelPlacement height_bar_text(double share) const;  // number beside it, 0 at its foot, 1 at its head
 
   // In the layout, of so many swatches.
@@ -70,6 +72,7 @@ class WallPlaces {
   void lay_out_front(const StagePlace& stage);
   void lay_out_panels(const StagePlace& stage);
   void lay_out_far_panels(const StagePlace& stage);
+  void lay_out_cue(const StagePlace& stage);
   void lay_out_height_bar(const StagePlace& stage, std::size_t swatches);
   render::PanelPlacement finale() const;  // the large plot
   render::PanelPlacement right_of_data(double inset) const;
@@ -82,6 +85,7 @@ class WallPlaces {
   double wall_bottom_ = 0, wall_top_ = 0;
   double shelf_y_ = 0, shelf_z_ = 0, back_z_ = 0;
   double height_bar_x_ = 0;
+  double cue_left_ = kCuePlace.x;
   glm::dvec3 wand_grip_{0.0};
   render::PanelPlacement force_placement_, data_placement_;
   std::optional<Far> far_;

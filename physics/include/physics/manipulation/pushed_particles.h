@@ -39,12 +39,16 @@ inline ParticleSpecies on_pad(const StickyPad& pad, ParticleSpecies species) noe
   return species;
 }
 
+// Usual budget of a tick: looks at contacts by heaps, a figure that depends only on places and path.
+inline constexpr double kHeapLooks = 4000.0;
+
 struct PushSetup {
   SphereCone tip;
   PushSprings springs;
   double tip_friction = 0.0;  // mu_t
   std::vector<ParticleSpecies> species;
   std::vector<StickyPad> pads{};  // the first of those that overlap counts
+  double heap_looks = kHeapLooks;
 };
 
 struct PlacedParticle {
@@ -118,9 +122,6 @@ struct PushTick {
   bool lagging = false;
   bool near = false;  // spheres are within reach of the apex
 };
-
-// Budget of a tick: looks at contacts by heaps, a figure that depends only on places and path.
-inline constexpr double kHeapLooks = 4000.0;
 
 // The constructor allocates; a tick neither allocates, locks, throws nor waits. One thread. The result depends on the
 // path of the base and, by ageing, on the time between ticks; never on a clock.

@@ -31,7 +31,7 @@ struct TaskTick {
 
 // A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done
 // and the hand has been lifted for kRestNs, and begins again when all particles are put back. If that is undone, the
-// task before continues, with its clock.
+// task before continues, with its clock. So does a task that has ended, if a push from before its end is taken back.
 //
 // The score follows only from ticks and events, so that a replay gives the same score. A caller that sees the particles
 // less often than every tick, as a frame of the wall does, misses the end only if a push moves a particle after the
@@ -66,6 +66,7 @@ class PatternTask {
     TaskScore score;
     std::int64_t begun_ns = 0;
     std::uint32_t kept_strokes = 0;  // strokes that have not been taken back
+    std::uint32_t done_strokes = 0;  // kept ones when the task ended
   };
   struct Rest {
     std::int64_t lifted_ns = 0;
@@ -74,6 +75,7 @@ class PatternTask {
   };
 
   void take_back();
+  void go_on();
   void put_back();
   void count_stroke(const TaskTick& tick);
   void count_guidance(const TaskTick& tick);
