@@ -86,7 +86,7 @@ std::string sizes(const curves::FitOptions& options) {
   return cells;
 }
 
-// What the maps of a file say of their fit.
+// Texts of the fit in the maps of a file.
 FitMaps::Texts map_texts(const curves::FitOptions& options) {
   FitMaps::Texts texts{{"Law", std::string(fits::row_of(*options.shape).meaning)}};
   for (const auto& [column, value] : settings_of(options)) {
@@ -135,7 +135,7 @@ std::string bootstrap_cells(const fits::ElasticFit& fit) {
 // Publication of the law, and the program.
 std::string origin(fits::Shape shape) { return fmt::format("{}\t{}", fits::row_of(shape).meaning, core::written_by()); }
 
-// What all rows of a file have in common.
+// Cells that all rows of a file have in common.
 struct FileCells {
   FileCells(const std::string& file, const curves::FitOptions& options)
       : name(core::printable_line(file)), sizes_of_fit(sizes(options)) {}

@@ -162,7 +162,7 @@ std::string rate_line(std::string_view what, double frame_ms, double bar_ms) {
                      frame_ms <= bar_ms ? "met" : "not met");
 }
 
-// How the time grows: the work of all processors for a frame beyond that for one node, per node or copy.
+// Growth of the time: the work of all processors for a frame beyond that for one node, per node or copy.
 std::string growth_lines(const RenderFigures& result) {
   std::string text;
   double one_ms = 0.0;

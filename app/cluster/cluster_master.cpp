@@ -125,7 +125,7 @@ void ClusterMaster::follow_particles(const exhibit::ParticlesNow& now, std::size
   follow_marks(now);
 }
 
-// What does not fit into a frame follows in the next ones.
+// Marks that do not fit into a frame follow in the next ones.
 void ClusterMaster::follow_marks(const exhibit::ParticlesNow& now) {
   if (!scene::leaves_marks(*now.set)) return;
   tiles_.resize(scene::kMarkTiles);

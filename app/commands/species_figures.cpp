@@ -116,7 +116,7 @@ nlohmann::json rod_figures_json(const scene::ParticleSet& set, const ParticleSpe
           {"largest_push_N", f.most_push.si},         {"distance_of_axes_m", f.rho.si}};
 }
 
-// What a user has to know of flat islands before a push.
+// Figures of flat islands that a user needs before a push.
 struct IslandFigures {
   Force pushed, turned;  // at rest: through the middle, and beside it by a tip that only just sticks
   Length rho, aim, lost;

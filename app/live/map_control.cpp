@@ -113,7 +113,7 @@ void MapControl::add_to_session(servo::WallFrame& shown) const {
                                      .adhesion_j_per_m2 = here.adhesion_j_per_m2};
 }
 
-// What the picture of the panel shows, in which the felt pixel is marked.
+// Quantity in the panel's picture, in which the felt pixel is marked.
 void MapControl::add_pixel_to_session(servo::WallFrame& shown) const {
   if (!wall_.material) return;
   const curves::SampleModel& sample = parts_.choice.felt()[*wall_.material];

@@ -133,7 +133,7 @@ bool has_check(CLI::Option& option, const char* name) {
 
 bool writes(CLI::Option& option) { return has_check(option, kWrites); }
 
-// What a file is if it is a measurement, by its first bytes; empty: none.
+// Name of a measurement's format, by the file's first bytes; empty: none.
 std::string_view measurement_in(const std::string& path) {
   if (servo::is_session_file(path)) return "a session";
   if (curves::is_image_file(path)) return "an image";
@@ -151,7 +151,7 @@ std::string_view foreign_measurement_in(const std::string& path) {
   return beginning && *beginning == kOwn ? "" : measurement;
 }
 
-// Whether its value is a file, alone or behind a word and a colon.
+// Returns whether its value is a file, alone or behind a word and a colon.
 bool reads(CLI::Option& option) {
   const std::string value = value_of(option);
   const auto names = [&](const char* word) { return value.find(word) != std::string::npos; };

@@ -22,8 +22,8 @@ std::string taken_by(const CommandDescription& command, const std::string& name)
 // or empty.
 std::string no_number(const std::string& value, const std::string& written);
 
-// What is wrong with a command line, in the words of its user, what to write instead, and where to read on. `text` is
-// the parser's message; `incomplete`: words are left, or something required is missing, perhaps under a wrong name.
+// Message about a wrong command line, in the words of its user, with what to write instead and where to read on. `text`
+// is the parser's message; `incomplete`: words are left, or something required is missing, perhaps under a wrong name.
 std::string usage_text(const TypedCommand& typed, const std::string& text, bool incomplete);
 
 }  // namespace afm::app

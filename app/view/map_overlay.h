@@ -21,7 +21,7 @@ namespace afm::app {
 
 class ViewPanels;
 
-// What is seen of the curves of a map that is felt whole. SI.
+// Visible part of the curves of a map that is felt whole. SI.
 struct MapView {
   bool slice = false;
   std::optional<double> equal_force_n{};  // force of the surface; empty: none is shown
@@ -44,7 +44,7 @@ class MapOverlay {
               bool retracting, const MapView& view);
 
  private:
-  struct Laid;  // what was laid on the sample last
+  struct Laid;  // newest map on the sample
 
   void lay_colours(const curves::SampleModel& map, const exhibit::WallState& wall, render::FrameState& picture);
 

@@ -21,7 +21,7 @@ namespace {
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
 constexpr std::size_t kMostRestarts = 3;  // per minute
 
-// What a person does to these between two lifts of the tip.
+// Name of a person's action on these between two lifts of the tip.
 std::string_view stroke_name(const scene::SharedParticles& particles, bool several) {
   if (particles.soft.hardness_pa > 0.0) return several ? "scratches" : "scratch";
   if (particles.ink.molecules_per_s > 0.0) return several ? "strokes" : "stroke";

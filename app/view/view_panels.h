@@ -148,7 +148,7 @@ class ViewPanels {
   std::shared_ptr<exhibit::SwingDial> dial_;  // never null
   std::string drawn_by_;
   std::shared_ptr<const curves::CurveMap> pictured_;  // map of the picture; null: none yet
-  exhibit::MapQuantity quantity_{};                   // what it shows
+  exhibit::MapQuantity quantity_{};                   // its contents
   render::MapPicture picture_;
   std::size_t marked_ = 0;
   bool marking_ = false;  // a key has marked a row

@@ -13,7 +13,7 @@ Model probe();                 // chip, V-shaped cantilever, pyramidal tip
 std::vector<Model> samples();  // a patch of mica, gold and silicon nitride each
 Model stage();
 Model room();                   // the floor below the exhibit
-std::vector<Model> swatches();  // what the wand points at to choose a material
+std::vector<Model> swatches();  // targets of the wand for choosing a material
 Model optics();                 // laser, four-quadrant photodiode, beam, spot
 Model wand();
 Model analogy();               // a magnet on a spring above an iron plate

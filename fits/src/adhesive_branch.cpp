@@ -102,7 +102,7 @@ AdhesiveBranch::Held AdhesiveBranch::at(double way, double& near) const {
   const auto change = [&](double load_power, double indentation_power, double lambda_power) {
     const double load_n = held.force_n * load_power + load_n_ * load_by_lambda * lambda_power;
     const double depth_m = held.depth_m * indentation_power + indentation_m_ * indentation_by_lambda * lambda_power;
-    if (beyond) return -spring_n_per_m_ * depth_m;  // but for the fold's own move
+    if (beyond) return -spring_n_per_m_ * depth_m;  // except for the fold's own move
     return load_n - slope_n * (depth_m + load_n / spring_n_per_m_) / way_slope;
   };
   held.by_modulus_n = change(0.0, -2.0 / 3.0, -2.0 / 3.0);

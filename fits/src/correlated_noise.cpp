@@ -86,7 +86,7 @@ std::optional<Orders> stepped_minimum(const LaggedProducts& products, std::size_
   return std::nullopt;
 }
 
-// Whether a process that is hardly stationary is likelier than a minimum: where the model misses the curve, the other
+// True if a process that is hardly stationary is likelier than a minimum: where the model misses the curve, the other
 // minima are of no noise.
 bool is_lower_at_the_edge(const LaggedProducts& products, std::size_t order, const Orders& coefficients) {
   auto partial = partial_of(coefficients, order);

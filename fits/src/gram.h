@@ -57,7 +57,7 @@ class Gram {
 
   struct Eliminated {
     std::array<std::size_t, kMostUnknowns + 1> order{};  // the others, the unknown, the residuals
-    Matrix rows{};                                       // what the columns before leave, up to the diagonal
+    Matrix rows{};                                       // remainder of the columns before, up to the diagonal
   };
   std::optional<Eliminated> without_others(std::size_t unknown) const;
 

@@ -27,7 +27,7 @@ inline std::uint32_t chosen(NanonisReader& in, std::uint32_t kept, std::initiali
   return choice == 0 ? kept : *(answers.begin() + (choice - 1));
 }
 
-// What Scan.PropsSet makes of the properties. Throws without a change.
+// The properties after Scan.PropsSet. Throws without a change.
 inline NanonisProperties changed(const NanonisProperties& kept, NanonisReader& in) {
   constexpr std::uint32_t kOff = 0, kOn = 1, kSaveAll = 0, kSaveNext = 1;
   NanonisProperties set;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trailing comments can be read alone: they do not begin with a preposition or a relative pronoun.
+// Trailing comments can be read alone: they do not begin with a preposition or a relative pronoun. Comments above
+// production code begin with a noun or a verb.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,8 +26,9 @@ using support::trailing_comments_of;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::array<std::string_view, 9> kDependent{"of",  "that",  "for",     "until",   "which",
-                                                     "who", "where", "whether", "likewise"};
+constexpr std::array<std::string_view, 11> kDependent{"of",    "that",    "for",      "until", "which", "who",
+                                                      "where", "whether", "likewise", "what",  "how"};
+constexpr std::array<std::string_view, 3> kQuestions{"What ", "How ", "Whether "};
 
 bool is_dependent(const Comment& comment) {
   const std::string first = comment.text.substr(0, comment.text.find_first_of(" ,.:;"));
@@ -44,6 +46,25 @@ std::vector<std::string> faults_of(std::string_view source) {
     if (is_dependent(comment)) faults.push_back(fmt::format("{}: {}", comment.line, comment.text));
   }
   return faults;
+}
+
+// Files of C++ and GLSL below these folders.
+std::vector<std::filesystem::path> sources_below(const std::set<std::string>& roots) {
+  namespace fs = std::filesystem;
+  constexpr std::array<std::string_view, 6> kEndings{".cpp", ".h", ".glsl", ".vert", ".frag", ".comp"};
+  std::vector<fs::path> sources;
+  for (const std::string& root : roots) {
+    for (const auto& entry : fs::recursive_directory_iterator(support::source(root))) {
+      const std::string ending = entry.path().extension().string();
+      const bool is_source = std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+      if (entry.is_regular_file() && is_source) sources.push_back(entry.path());
+    }
+  }
+  return sources;
+}
+
+std::string in_tree(const std::filesystem::path& path) {
+  return std::filesystem::relative(path, support::source()).string();
 }
 
 TEST(TrailingComments, AreFoundWithTheirLines) {
@@ -67,25 +88,31 @@ TEST(TrailingComments, ThatDependOnTheirLineAreNoticed) {
 }
 
 TEST(TrailingComments, CanBeReadAlone) {
-  namespace fs = std::filesystem;
   std::vector<std::string> faults;
-  std::size_t files = 0;
   std::set<std::string> roots = support::production_folders();
   roots.insert({"assets", "shaders", "tests"});
-  for (const std::string& root : roots) {
-    for (const auto& entry : fs::recursive_directory_iterator(support::source(root))) {
-      const std::string ending = entry.path().extension().string();
-      const bool is_source = ending == ".cpp" || ending == ".h" || ending == ".glsl" || ending == ".vert" ||
-                             ending == ".frag" || ending == ".comp";
-      if (!entry.is_regular_file() || !is_source) continue;
-      ++files;
-      const std::string file = fs::relative(entry.path(), support::source()).string();
-      for (const std::string& fault : faults_of(core::read_file(entry.path().string()).value())) {
-        faults.push_back(file + ":" + fault);
-      }
+  const auto sources = sources_below(roots);
+  for (const auto& path : sources) {
+    for (const std::string& fault : faults_of(core::read_file(path.string()).value())) {
+      faults.push_back(in_tree(path) + ":" + fault);
     }
   }
-  EXPECT_GT(files, 1200U);
+  EXPECT_GT(sources.size(), 1200U);
+  EXPECT_THAT(faults, IsEmpty());
+}
+
+TEST(Comments, AboveProductionCodeBeginWithANounOrAVerb) {
+  std::vector<std::string> faults;
+  std::size_t comments = 0;
+  for (const auto& path : sources_below(support::production_folders())) {
+    for (const support::Prose& comment : support::comments_of(core::read_file(path.string()).value())) {
+      ++comments;
+      const bool asks = std::any_of(kQuestions.begin(), kQuestions.end(),
+                                    [&](std::string_view word) { return comment.text.starts_with(word); });
+      if (asks) faults.push_back(fmt::format("{}:{}: {}", in_tree(path), comment.lines.front(), comment.text));
+    }
+  }
+  EXPECT_GT(comments, 8000U);
   EXPECT_THAT(faults, IsEmpty());
 }
 

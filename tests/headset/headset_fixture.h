@@ -111,7 +111,7 @@ class HeadsetTest : public testing::Test {
   HandClock clock_;
   int beats_ = 0;
   int lends_after_beats_ = 0;  // 0: never
-  bool shown_ = false;         // what draw_next() drew last
+  bool shown_ = false;         // newest drawing of draw_next()
   TestScene scene_ = make_test_scene();
   render::FrameState frame_ = full_frame(scene_);
   scene::HeadPose room_from_floor_{.position_m = {0.0, -1.6, 2.5}};  // the test scene's wall is before its origin

@@ -20,7 +20,7 @@ struct ConversionOptions {
 struct Converted {
   std::string bytes;                 // contents of the new file
   std::string contents;              // "1 curve of 4000 points"
-  std::vector<std::string> remarks;  // what was left out, turned or rounded, one sentence each
+  std::vector<std::string> remarks;  // losses, turns and rounding, one sentence each
 };
 
 // All endings of a converted file, for help and error messages.

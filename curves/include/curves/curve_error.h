@@ -13,7 +13,7 @@ class CurveError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// What to do with a file, or a part of it, that lacks its end.
+// Advice for a file, or a part of it, that lacks its end.
 inline constexpr const char* kCopyAgain = "copy the file again from where it was saved";
 
 // "it is cut short: it has 3 of its 64 curves; copy ...". `there`: the part that exists, or what is missing; may be

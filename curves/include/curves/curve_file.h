@@ -59,7 +59,7 @@ struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;
   std::size_t index = 0;                  // number of the curve in a file with several (curves/curve_series.h)
-  std::optional<TableColumns> columns{};  // what a plain table holds; a file is read as one if it is given
+  std::optional<TableColumns> columns{};  // contents of a plain table; if given, the file is read as one
   bool confined = true;  // foreign formats in a process that cannot open anything; false: here, for a fuzzer
 };
 

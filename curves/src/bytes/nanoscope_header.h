@@ -30,7 +30,7 @@ std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes);
 
 // False for a file that is cut off in its header.
 bool nanoscope_header_ends(std::string_view bytes);
-inline constexpr const char* kNoHeaderEnd = "its header has no end";  // what is then missing
+inline constexpr const char* kNoHeaderEnd = "its header has no end";  // part that is then missing
 
 // The name "Deflection Error" in S [DeflectionError] "Deflection Error"; empty without one.
 std::string_view nanoscope_channel(const NanoscopeBlock& channel);

@@ -85,7 +85,7 @@ std::string_view base_unit(const TableColumn& column) {
   return {};
 }
 
-// Whether the words above a column name another unit in their brackets, "Height (um)".
+// Returns whether the words above a column name another unit in their brackets, "Height (um)".
 bool names_another_unit(std::string_view words, const TableColumn& column) {
   const std::size_t open = words.find_last_of("(["), close = words.find_last_of(")]");
   if (open == std::string_view::npos || close == std::string_view::npos || close < open) return false;
@@ -169,7 +169,7 @@ class TableReader {
   std::vector<std::vector<double>> take() { return std::move(table_); }
 
  private:
-  // Whether it is a line of numbers, by which the separator is known.
+  // Returns whether it is a line of numbers, by which the separator is known.
   bool finds_separator(std::string_view line) {
     const auto fits = [&](char separator) { return first_bad(line, separator) == columns_.size(); };
     const auto found = std::find_if(kSeparators.begin(), kSeparators.end(), fits);
@@ -223,7 +223,7 @@ class TableReader {
     --rows_;
   }
 
-  // Whether the fields of the last line are what fills up a column that is shorter than others, as in Igor's tables.
+  // True if the fields of the last line fill up a column that is shorter than others, as in Igor's tables.
   bool is_padding() const {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i].kind == ColumnKind::Nothing || i >= fields_.size()) continue;

@@ -57,7 +57,7 @@ std::string_view name_in(std::string_view header) {
   return name.substr(0, name.find('\0'));
 }
 
-// What a header says of its entry.
+// An entry as its header describes it.
 struct Packed {
   std::string_view bytes;
   std::size_t size = 0;  // unpacked

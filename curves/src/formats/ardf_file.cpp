@@ -40,7 +40,7 @@ double ardf_step_m(const ArdfSection& definition, std::size_t number, std::size_
   return scale.unit == "m" && step_m > 0.0 && step_m < 1.0 ? step_m : 0.0;
 }
 
-// What the tip does in a segment of this name.
+// Motion of the tip in a segment of this name.
 std::optional<physics::Branch> ardf_branch(std::string_view segment) {
   const std::string name = lower_key(segment);
   if (name.starts_with("ext") || name.starts_with("app")) return physics::Branch::Approach;

@@ -46,7 +46,7 @@ bool begins_as_tab(std::string_view bytes) {
   return bytes.starts_with("#") && bytes.substr(0, kLongestHeading).find("# BEGIN METADATA") != std::string_view::npos;
 }
 
-// What touchafm-hdf5 is to read; a calibration that is not given is 0.
+// Arguments for touchafm-hdf5; a calibration that is not given is 0.
 std::vector<std::string> hdf5_arguments(const char* how, const SeriesPart& part, const CurveReading& reading) {
   const double spring = reading.spring_constant ? reading.spring_constant->si : 0.0;
   return {how, std::to_string(part.first), std::to_string(part.step), fmt::format("{}", spring),

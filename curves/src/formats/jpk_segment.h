@@ -49,7 +49,7 @@ class JpkSegment {
     double operator()(double value) const { return multiplier * value + offset; }
   };
 
-  // How the numbers of a channel are stored: their encoder's type and its properties, or the type of data without one.
+  // Storage of a channel's numbers: their encoder's type and its properties, or the type of data without one.
   struct Storage {
     std::string type, encoder;
   };

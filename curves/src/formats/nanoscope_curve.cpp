@@ -236,7 +236,7 @@ std::string NanoscopeCurves::whole_of_all() const {
   return count_ == 1 ? std::string() : fmt::format("it has {} of its {} curves", whole_, count_);
 }
 
-// How the data of a channel are laid out; empty if they are no such curves. A hold is in all of its curves, or in none.
+// Layout of a channel's data; empty if they are no such curves. A hold is in all of its curves, or in none.
 std::optional<NanoscopeCurves::Layout> NanoscopeCurves::layout_of(const NanoscopeBlock& channel) const {
   const double length = nanoscope_number(channel, "data length");
   std::vector<Layout> found;

@@ -113,7 +113,7 @@ void thermal_lines(const LeverOptions& options, const LeverCalibration& result, 
   lines.note("the interval covers only the scatter of the spectrum");
 }
 
-// What Sader's method does not hold for (docs/lever.md).
+// Reasons to doubt Sader's method (docs/lever.md).
 std::vector<std::string> sader_doubts(const LeverInputs& in) {
   constexpr double kLeastAspect = 3.0, kLeastQuality = 1.0;
   std::vector<std::string> doubts;

@@ -312,7 +312,7 @@ class DrawActivity final : public StepActivity {
 
   void describe(LessonPrompt& prompt) const override {
     prompt.wants = LessonPrompt::Wants::Answer;
-    prompt.hidden = true;  // because the curve on the wall is the answer
+    prompt.hidden = true;  // the curve on the wall is the answer
     prompt.words = joined(part_ == 0 ? context_.words() : "", context_.phrases[after(Phrase::DrawPart1, part_)]);
     for (std::size_t i = 0; i < kParts; ++i) {
       prompt.answers.push_back(context_.phrases[after(Phrase::DrawShape1, shapes_[i])]);

@@ -63,7 +63,8 @@ HeightRelief relief_of(std::span<const double> height_m, double side_m, const Re
     return std::clamp((scale.vertical * measured_m - relief.floor_m) / (relief.lid_m - relief.floor_m), 0.0, 1.0);
   };
   const auto at = [&](std::size_t column, std::size_t row) -> std::optional<double> {
-    if (column >= kReliefSide || row >= kReliefSide) return std::nullopt;  // also beyond the lower rims, by wrapping
+    if (column >= kReliefSide || row >= kReliefSide)
+      return std::nullopt;  // includes points beyond the lower rims, by wrapping
     const double measured_m = height_m[row * kReliefSide + column];
     return std::isfinite(measured_m) ? std::optional(unit(measured_m)) : std::nullopt;
   };

@@ -132,7 +132,7 @@ class ParticleRows {
         phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
   }
 
-  // What is known of the particle nearest to the tip, and what the newest look has found.
+  // Knowledge of the particle nearest to the tip, and the result of the newest look.
   void add_picture() {
     if (now_.picture == nullptr) return;
     const servo::PictureNow& picture = *now_.picture;

@@ -264,7 +264,7 @@ RecordedCycle cycle_of(const std::vector<scene::TipSample>& samples) {
           lowest == samples.end() ? 0 : place(std::max_element(lowest, samples.end(), lower))};
 }
 
-// What was felt, with its sources, which every session of a demo has.
+// Parameters of the felt contact with their sources, which every session of a demo has.
 nlohmann::json numbers_of(const servo::RecordedSession& session) {
   return nlohmann::json(curves::session_numbers(session.material, session.parameters, session.sources, {}));
 }

@@ -23,7 +23,7 @@ using physics::Length;
 
 constexpr double kNm3 = 1e-27;  // in m^3
 
-// What a user has to know of a soft sample before a scratch, at a load.
+// Figures of a soft sample that a user needs before a scratch, at a load.
 struct ScratchFigures {
   Force load, least_load, cap_load, lateral;
   Length standing, standing_left, dragged, dragged_left, width, ridge;

@@ -38,7 +38,7 @@ WallShape largest_shape(const StagePlace& stage, std::size_t swatches) {
   return beside.unit_m >= below.unit_m ? beside : below;
 }
 
-// Whether laser or photodiode is seen behind the banner. Before a floor they lean towards the viewer.
+// True if the banner covers laser or photodiode, which lean towards the viewer before a floor.
 bool banner_hides_top(const StagePlace& stage, const WallShape& shape) {
   const Contact contact = contact_of(stage, shape);
   if (contact.turn_rad == 0.0) return false;

@@ -46,7 +46,7 @@ struct FitSetup {
   std::optional<double> pull_off_z_m{};  // height of the base at which the recorded tip lets go
   double zero_n = 0;                     // force of the free lever, only for the tip position
   Against against = Against::Z;
-  bool tilt = false;           // also fits a slope of the baseline
+  bool tilt = false;           // fits a slope of the baseline, too
   bool white = false;          // takes the noise as white: ordinary least squares, as in nanite and AtomicJ
   bool interval = true;        // false: no intervals, to measure what they cost
   std::vector<double> starts;  // contact points from which the fit begins, m; the best end counts

@@ -73,7 +73,7 @@ struct DeviceKind {
   bool vibrates;             // its devices have a DeviceSpec::max_vibration_n, unless their model is unknown
   HandControls controls;     // names of its controls on the wall
   std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
-  std::string_view proof;    // what its driver was tested with, for a device that no hardware has proved; or empty
+  std::string_view proof;    // substitute for hardware in the tests of its driver; empty: none
 
   // Both functions log what they tried, the device itself last.
   core::Result<std::unique_ptr<HapticDevice>> (*open)(const DeviceRequest& request, ProbeLog& log);

@@ -65,7 +65,7 @@ class MapContact {
 
   using Scalings = ContactModel::Scalings;
 
-  // What a hand feels in addition to the law.
+  // Effects on the hand in addition to the law.
   struct Channels {
     bool damps = false;
     scene::MapVibration vibration = scene::MapVibration::None;

@@ -111,7 +111,7 @@ bool FeltScratch::put_back() noexcept {
   return moved;
 }
 
-// What the tip meets from here on depends only on the surface as published.
+// From here on, the contact depends only on the surface as published.
 void FeltScratch::touch_down() noexcept {
   tip_.hold_over(lever_at(hand_m_));
   tip_is_ = Tip::On;

@@ -72,7 +72,7 @@ std::shared_ptr<const MapLaw> on_hand(const LawFamily& family, const Scaling& sc
   return std::make_shared<const MapLaw>(laws, family.columns(), PotentialEnergy::Range{-reach_m, reach_m});
 }
 
-// What is laid over the sample, and on which scale.
+// A sheet that is laid over the sample, and its scale.
 struct Sheet {
   const scene::SharedLawMap& map;
   double spacing_m;

@@ -46,7 +46,7 @@ class PublishedTiles {
       next_ = tile + 1;
       return tile;
     }
-    next_ = 0;  // so that a session can begin here
+    next_ = 0;  // lets a session begin here
     return std::nullopt;
   }
 

@@ -44,7 +44,7 @@ void smooth(const Line& line) {
   }
 }
 
-// What lies beyond the edge for a mean: the height of the edge, or the mirror image, in which the mean is level there.
+// Heights beyond the edge for a mean: the height of the edge, or the mirror image, in which the mean is level there.
 enum class Beyond { Edge, Mirror };
 
 std::size_t row_within(std::ptrdiff_t row, std::size_t rows, Beyond beyond) {

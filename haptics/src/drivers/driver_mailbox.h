@@ -12,7 +12,7 @@ namespace afm::haptics {
 
 // Newest data of a device, from its driver.
 struct DriverFrame {
-  std::int64_t time_ns = 0;  // when the device gave the position
+  std::int64_t time_ns = 0;  // time of the position
   glm::dvec3 position_m{0.0};
   double motor_heat = 0;
   std::uint32_t turn_on = 0;

@@ -23,7 +23,7 @@ class Door {
   // Limit of a request. A client that sends more without ending one is sent too_long() and given up.
   virtual std::size_t most_request_bytes() const = 0;
   virtual std::string_view too_long() const = 0;
-  // Whether the request at the beginning of `bytes`, of which not all has come, will be longer.
+  // True if the request at the beginning of `bytes`, of which not all has come, will be too long.
   virtual bool announces_too_much(std::string_view /*bytes*/) const { return false; }
   // Bytes that the last request may lack if its client sends nothing more.
   virtual std::string_view omitted_end() const { return {}; }

@@ -18,7 +18,7 @@ namespace afm::instrument {
 
 class SimulatedInstrument;
 
-// What a client sets of its scans, as Scan.PropsGet names it: kept, without effect.
+// Properties of scans that a client sets, as Scan.PropsGet names them: kept, without effect.
 struct NanonisProperties {
   static constexpr std::uint32_t kSaveNone = 2;
   std::uint32_t continuous = 0, bouncing = 0;  // 0 off, 1 on

@@ -154,7 +154,7 @@ class Misfit {
     inner_rest_.assign(rest_.rbegin(), rest_.rend());
     inner_tilt_.assign(tilt_.rbegin(), tilt_.rend());
     inner_z_.assign(profile.z.rbegin(), profile.z.rend());
-    inner_z_.push_back(inner_z_.back());  // so that there is a pair for the last one
+    inner_z_.push_back(inner_z_.back());  // makes a pair for the last one
   }
 
   double squares() const { return squares_; }

@@ -31,7 +31,7 @@ struct IslandRim {
   double tip_friction = 0.0;
 };
 
-// What holds an island.
+// Friction that holds an island.
 struct IslandFriction {
   double holds_n = 0.0;   // at the start, between f_k and f_s
   double moving_n = 0.0;  // f_k

@@ -7,7 +7,7 @@
 
 namespace afm::physics {
 
-// How far a swing departs from a sinusoid: its bend, the deflection of the lever that is not of the first harmonic,
+// Departure of a swing from a sinusoid: its bend, the deflection of the lever that is not of the first harmonic,
 // from the lowest point on. The height at an angle t from the lowest point, 0 to pi, is
 //
 //   bottom + 2 A sin^2(t/2) + bend(t),   bend(t) = y(t) - y(0),   y(t) = <F(t') G(t - t')>/k,

@@ -62,7 +62,7 @@ class FlowAtHeight {
     return {-rate.g * at.u - rate.w * at.v, -rate.g * at.v + rate.w * at.u + drive_};
   }
 
-  // How much the drive misses what a resting swing of this amplitude needs: zero at rest, where it rises with the
+  // Force that the drive lacks for a resting swing of this amplitude: zero at rest, where it rises with the
   // amplitude if the state is stable, and falls if it is a saddle.
   double imbalance(double amplitude) const {
     const Rates rate = rates(amplitude);

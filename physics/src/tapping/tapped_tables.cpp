@@ -113,7 +113,7 @@ void limit_rise(PushNodes& nodes, double most_n_per_m) {
   }
 }
 
-// What a loop down the free branch and up the attached one, between their ends, would give.
+// Energy of a loop down the free branch and up the attached one, between their ends.
 double given_by_loop(const BranchTable& free, const BranchTable& attached) {
   constexpr int kSteps = 1000;
   const double from = free.end().si, step = (attached.end().si - from) / kSteps;

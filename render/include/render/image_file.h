@@ -30,7 +30,7 @@ struct ImageSpan {
 // An independent copy.
 Image to_image(const ImageSpan& span);
 
-// What a picture shows, as keys and texts: a key has 1 to 79 characters of ASCII.
+// Description of a picture, as keys and texts: a key has 1 to 79 characters of ASCII.
 using PictureTexts = std::span<const std::pair<std::string, std::string>>;
 
 // Encodes the image as a PNG file: 8-bit sRGB without alpha, with the texts and "Software", the program and its

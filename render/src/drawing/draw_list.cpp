@@ -78,7 +78,7 @@ bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& ro
 
 Shading shading(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
   if (is_fine(draw, eye, room_from_node, pixels_high)) return Shading::ByVertex;
-  if (draw.reshaped) return Shading::ByFragment;  // how far its normals turn is not known
+  if (draw.reshaped) return Shading::ByFragment;  // its normals may turn
   return is_smooth(draw, eye, room_from_node) ? Shading::LightByVertex : Shading::ByFragment;
 }
 

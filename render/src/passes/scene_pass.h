@@ -21,7 +21,7 @@ class ScenePass {
   ScenePass(const Device& device, const FrameSetLayouts& layouts, const SceneMaterials& materials,
             const std::vector<ShaderVariant>& variants, Lighting lighting);
 
-  // What all pipelines of the eyes have in common.
+  // State that all pipelines of the eyes have in common.
   struct Look {
     vk::PipelineLayout layout;
     bool one_light = false;

@@ -25,7 +25,7 @@ core::Error bad(const char* kind, const std::string& path, const std::string& wh
   return {core::ErrorCategory::BadInputFile, fmt::format("{} {}: {}", kind, path, what)};
 }
 
-// What a file is that is no text in UTF-8, such as a download that failed, and what to do; empty for any other.
+// Kind of a file that is no text in UTF-8, such as a failed download, with advice; empty for any other.
 std::string other_file(std::string_view text) {
   const auto kind = core::file_kind(text.substr(0, core::kFileKindBytes), text.size());
   if (!kind) return "";

@@ -129,7 +129,7 @@ class LivePicture {
 void follow_settings(std::unique_ptr<LivePicture>& picture, const scene::SharedParticles& set,
                      const scene::SharedDevice& device, const scene::PushSettings& settings);
 
-// What a look has found, in one line for a log.
+// Result of a look, in one line for a log.
 std::string text_of(const LookResult& look);
 
 }  // namespace afm::servo

@@ -11,7 +11,7 @@ namespace afm::study {
 // Types of a lesson's steps, in one table for lesson files, their data, and the study that reads them
 // (docs/adding-a-lesson-step.md).
 enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Push };
-// What a counted trial is answered with. Comparison: of forces on the hand, so it is right or wrong, and needs the
+// Answer to a counted trial. Comparison: of forces on the hand, so it is right or wrong, and needs the
 // common scale. Number: StudyTrial::value.
 enum class StepAnswer { None, Number, Comparison };
 

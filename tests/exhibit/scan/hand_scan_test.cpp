@@ -117,7 +117,7 @@ TEST(HandScan, PaintsWhatTheHandPassesAndLeavesTheRestEmpty) {
     EXPECT_NEAR(scan.seen_share(), 2.0 / LiveScan::kPixels, 1e-3);
     const ScanMaps& maps = scan.maps();
     for (const double x_m : {-20e-9, 3e-9, 17e-9}) {
-      const double cell_m = 0.5e-9;  // what the surface changes by within a cell
+      const double cell_m = 0.5e-9;  // change of the surface within a cell
       if (feedback) {
         EXPECT_NEAR(at(maps.height_m[0], x_m, 10e-9), hills_m(x_m, 10e-9), cell_m);
         EXPECT_NEAR(at(maps.height_m[1], x_m, 10e-9), 0.0, 0.05e-9) << "the loop is fast";

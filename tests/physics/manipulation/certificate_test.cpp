@@ -195,7 +195,7 @@ void expect_certified(const Crowd& crowd, std::uint64_t seed, int ticks, long& t
         << crowd.name << ", seed " << seed << ", tick " << i;
     before = surplus;
     if (tick.state != PushState::Free) ++touched;
-    if (crowd.particles <= 20 || i % (ticks / 4 + 1) == 0) {  // what is published as stored is what is there
+    if (crowd.particles <= 20 || i % (ticks / 4 + 1) == 0) {  // the published energy is the stored one
       ASSERT_NEAR(tick.stored.si, energy_of(setup, particles, tick), 1e-9 * largest + kPlaceRounding * strongest)
           << crowd.name << ", seed " << seed;
     }

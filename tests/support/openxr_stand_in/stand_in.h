@@ -118,8 +118,8 @@ SubmittedImage read_image(const Swapchain& chain, std::uint32_t layer, const XrR
 std::int64_t now_ns();
 bool enter(const char* call, XrResult& result);  // logs it; false: it fails as the script says
 void follow_script_file();
-void note(
-    const std::string& what);  // when it first happens after a line of the script, in that file's neighbour ".log"
+void note(const std::string&
+              what);  // time at which it first happens after a line of the script, in that file's neighbour ".log"
 
 XrResult find_frame_call(const char* name, PFN_xrVoidFunction* function);
 

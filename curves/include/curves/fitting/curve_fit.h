@@ -34,7 +34,7 @@ struct FitOptions {
   double most_depth_m = std::numeric_limits<double>::infinity();
   bool tilt = false;
   bool white = false;
-  bool bootstrap = false;                           // also an interval by kBootstraps fits to resampled residuals
+  bool bootstrap = false;                           // adds an interval by kBootstraps fits to resampled residuals
   std::vector<std::string> uncertainty_texts;       // "radius=5%"
   std::vector<fits::Uncertainty> uncertainties{};   // set by prepare() from the texts
   std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer

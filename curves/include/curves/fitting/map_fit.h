@@ -8,7 +8,7 @@
 
 namespace afm::curves {
 
-// How the curves of a map are read.
+// Settings with which the curves of a map are read.
 struct MapReading {
   CurveReading calibration;  // its index is not used
   FitOptions fit;            // without a shape no curve is fitted

@@ -24,7 +24,7 @@ struct UserModels {
   std::optional<scene::Scene> sample;         // node "surface", as in the assets' sample-*.glb
   std::optional<TopographyModel> topography;  // an instrument's topography instead of a sample
   std::shared_ptr<const scene::ParticleSet> particles;  // particles on a level sample; may be null
-  bool force_volume = false;                            // also nodes for the curves of a force map over the sample
+  bool force_volume = false;                            // adds nodes for the curves of a force map over the sample
 };
 
 // An empty name means no model. The first bytes of the sample's file decide whether it is an image. The error names the

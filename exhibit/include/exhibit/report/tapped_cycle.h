@@ -25,7 +25,7 @@ struct TappedCycle {
   double drive_hz = 0;
   std::optional<TappedJump> to_repulsion{}, to_attraction{};  // empty: none was recorded
   double reduction_loop_m2 = 0;  // integral of A0 - A over Z; negative: the push takes energy from the hand
-  double mean_force_work_j = 0;  // what the mean force, which is not felt, would give to the hand
+  double mean_force_work_j = 0;  // energy that the mean force, which is not felt, would give to the hand
 
   double hysteresis_width_m() const;  // 0 without both jumps
 };

@@ -21,7 +21,7 @@ struct TipState;
 
 namespace afm::exhibit {
 
-// What the picture of a force map shows. All but the height need fits.
+// Quantities for the picture of a force map. All but the height need fits.
 enum class MapQuantity { Height, Modulus, Adhesion };
 
 // "modulus", for the log and for sessions.
@@ -42,8 +42,8 @@ MapQuantity next_quantity(const curves::CurveMap& map, MapQuantity shown);
 render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases,
                                MapQuantity quantity = MapQuantity::Height);
 
-// What is felt of a whole map, for the panel: "map: E 2.3 MPa, W 40 mJ/m² here", and a line more if that pixel has no
-// fit, a doubtful one, or none lies below the tip. Empty without a map below the tip.
+// Notes for the panel on a whole map that is felt: "map: E 2.3 MPa, W 40 mJ/m² here", and a line more if that pixel has
+// no fit, a doubtful one, or none lies below the tip. Empty without a map below the tip.
 std::vector<std::string> felt_map_notes(const curves::SampleModel& model, const scene::TipState& tip,
                                         const Phrases& phrases);
 

@@ -55,7 +55,7 @@ class VolumeView {
     scene::TopographyScale shown{};                         // metres of the sample's frame per such metre
     double floor = 0, lid = 0;                              // surface; top of the highest curve over it
   };
-  // What was drawn last.
+  // The newest drawing.
   struct Slice {
     std::size_t row = 0;
     curves::ForceVolume::Way way{};

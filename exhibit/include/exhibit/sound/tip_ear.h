@@ -36,7 +36,7 @@ class TipEar {
   // Adds a sample; call in order of time. Returns at most one event.
   std::optional<Heard> add(const scene::TipSample& sample);
 
-  // What is pushed in the newest sample.
+  // The push in the newest sample.
   const HeardPush& push() const { return push_.push(); }
 
  private:

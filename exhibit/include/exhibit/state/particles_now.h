@@ -56,7 +56,7 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
   return known ? std::optional(static_cast<std::size_t>(now.push.particle)) : std::nullopt;
 }
 
-// How the picture knows a particle; Measured without a picture, which shows the particles themselves.
+// Source of a particle's place in the picture; Measured without a picture, which shows the particles themselves.
 servo::Known known_of(const ParticlesNow& now, std::size_t particle);
 
 // Load up to which a look moves no particle of the set.

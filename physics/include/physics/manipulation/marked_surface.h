@@ -36,7 +36,7 @@ struct GrooveSection {
 // Place of a tip that a lever presses, and what it costs.
 struct Sunk {
   Length apex;         // height
-  Volume displaced;    // what it presses down there
+  Volume displaced;    // material that it presses down there
   Force resistance;    // against a motion along the given way
   bool stops = false;  // at the lowest height: the load is more than the surface bears
 };
@@ -62,7 +62,7 @@ class MarkedSurface {
   // The longest side of a rectangle for a tip.
   static Length longest_side(const SphereCone& tip) noexcept;
 
-  // Whether a tip may be there.
+  // Returns whether a tip may be there.
   bool holds(const Sideways<Length>& place) const noexcept;
 
   // The lowest height that an apex takes.
@@ -91,7 +91,7 @@ class MarkedSurface {
   void pile_up(const Sideways<Length>& place, Length apex, Length contact_radius,
                const Sideways<double>& along) noexcept;
 
-  // What has no room beside a tip that leaves is densified.
+  // Densifies the material without room beside a tip that leaves.
   void densify_what_waits() noexcept { under_way_m3_ = 0.0; }
 
   // Height at a place when no tip is there, between the middles of the squares by their distances; 0 beyond them.

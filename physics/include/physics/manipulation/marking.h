@@ -4,8 +4,8 @@
 #include "physics/manipulation/tip_contact.h"
 #include "physics/units.h"
 
-// How deep a sphere-cone tip marks a soft surface: closed forms (docs/manipulation.md, "Scratches"; equation numbers
-// (M50) on). Depths are positive downwards, from the surface before the first mark. Any thread.
+// Depth of the marks of a sphere-cone tip in a soft surface: closed forms (docs/manipulation.md, "Scratches"; equation
+// numbers (M50) on). Depths are positive downwards, from the surface before the first mark. Any thread.
 namespace afm::physics {
 
 // A surface that flows where a tip presses it with its hardness, at any speed.

@@ -13,7 +13,7 @@
 
 namespace afm::physics {
 
-// What a second look found.
+// Result of a second look.
 struct SecondLook {
   Time at;                   // end of the scan, from the start
   std::size_t particle = 0;  // the one that was looked at, and the lines that it took
@@ -49,7 +49,7 @@ class OperatorsPicture {
   Time age(std::size_t particle) const { return time_ - states_[particle].seen; }  // since it was measured last
   bool is_stale(std::size_t particle) const;
 
-  // What all looks at the particle of the newest one have found: a hand aims that far beside its first plan.
+  // Sum of the results of all looks at the newest look's particle: a hand aims that far beside its first plan.
   Sideways<Length> found() const;
 
  private:

@@ -7,7 +7,7 @@
 #include "physics/friction/sideways.h"
 #include "physics/units.h"
 
-// How a sample drifts below its scanner, and how far an old picture of it can be trusted (docs/manipulation.md). Any
+// Drift of a sample below its scanner, and limits of an old picture of it (docs/manipulation.md). Any
 // thread; nothing allocates.
 namespace afm::physics {
 

@@ -70,8 +70,8 @@ class TapEnvelope {
   struct Swing {
     double lost = 0, peak = 0, mean = 0;
   };
-  // What moves the swing, and its forces. In the tables virial and energy are over sqrt(A), and the mean force is times
-  // sqrt(A): their changes with A are then slow. Single precision halves what a tick reads.
+  // Terms that move the swing, and its forces. In the tables virial and energy are over sqrt(A), and the mean force is
+  // times sqrt(A): their changes with A are then slow. Single precision halves what a tick reads.
   struct Moving {
     float virial = 0, lost = 0;
   };
@@ -82,7 +82,7 @@ class TapEnvelope {
     std::vector<Moving> moving;
     std::vector<Forces> forces;
   };
-  // What moves a swing, between two columns and between two rows. A column there is
+  // Terms that move a swing, between two columns and between two rows. A column there is
   // `columns` (`whole` + `share` (1 + `by_gap` gap)), with the gap of the lowest point from contact.
   struct Line {
     double from = 0, rise = 0;

@@ -49,7 +49,7 @@ class TapTable {
   // Z below which a swing is on the repelled branch for the first time.
   Length falls_at() const noexcept { return Length(falls_m_); }
 
-  // Whether a tip on its way through `z` is on the repelled branch, after it was there (`repelled`) or not.
+  // True if a tip on its way through `z` is on the repelled branch, after it was there (`repelled`) or not.
   bool repelled_at(bool repelled, double z_m) const noexcept { return repelled ? z_m <= leaves_m_ : z_m < falls_m_; }
 
   // The walk, from the highest Z to the lowest and back; a jump is two points.

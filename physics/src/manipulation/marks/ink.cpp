@@ -77,7 +77,7 @@ InkedSurface::InkedSurface(const Ink& ink, const Sideways<Length>& least, const 
 long InkedSurface::column_of(Length x) const noexcept { return std::lround((x.si - left_m_) / spacing_m_); }
 long InkedSurface::row_of(Length y) const noexcept { return std::lround((y.si - bottom_m_) / spacing_m_); }
 
-// What is nearer than the next offset is covered, or beyond the surface; after a step that holds for a smaller circle.
+// All places nearer than the next offset are covered, or beyond the surface; after a step, in a smaller circle.
 void InkedSurface::move_to(long column, long row) noexcept {
   if (column == column_ && row == row_) return;
   double known = 0.0;

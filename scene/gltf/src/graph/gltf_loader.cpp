@@ -55,7 +55,7 @@ std::string why_empty(const tinygltf::Model& model, const Scene& scene) {
     has_mesh = true;
     if (scene.meshes[*node.mesh].primitives.empty()) continue;
     has_primitive = true;
-    if (!scene.animations.empty() || has_size(scene, node)) return "";  // what moves may grow from nothing
+    if (!scene.animations.empty() || has_size(scene, node)) return "";  // a moving node may grow from nothing
   }
   const std::string reason = has_primitive ? "has only meshes without size"
                              : has_mesh    ? "has only meshes that cannot be drawn"

@@ -13,7 +13,7 @@
 
 namespace afm::scene {
 
-// How a scripted hand plays its moves, and how far its picture is from the particles.
+// Playing of a scripted hand's moves, and the distance of its picture from the particles.
 struct PushScript {
   physics::Frequency rate{1000.0};  // ticks per second
   int samples = 100;                // at least 2
@@ -41,7 +41,7 @@ struct ScriptedPush {
   physics::Sideways<physics::Length> drift;          // way of the sample at the end
   std::optional<physics::OperatorsPicture> picture;  // only from level 1 on
 
-  // Whether all that was pushed has been measured since; otherwise no pattern is done.
+  // True if all that was pushed has been measured since; otherwise no pattern is done.
   bool judged() const;
 
   // Places by which the pattern is judged: with a picture those that it shows.

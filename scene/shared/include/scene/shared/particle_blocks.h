@@ -150,7 +150,7 @@ static_assert(all_fields_described<SharedPad>());
 inline constexpr std::uint32_t kHighestLevel = 2;
 inline constexpr std::uint32_t kLargestSeed = 65535;
 
-// How far the picture of the particles is from them: level and seed of scene::PushScript.
+// Distance of the particles' picture from the particles: level and seed of scene::PushScript.
 struct SharedLevel {
   std::uint32_t level = 0;    // 0: the particles are shown; 1: the computed picture is right; 2: drift and scatter
   std::uint32_t seed = 1;     // seed of drift and scatter, 1 to 65535

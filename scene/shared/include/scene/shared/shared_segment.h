@@ -49,7 +49,7 @@ physics::DrivenLever tapping_lever(const SharedContact& material);
 
 // True if a block is valid: indices within counts, enumerators known, numbers finite.
 bool is_valid(const SharedMeasuredCurve& curve);
-bool is_valid(const SharedLawMap& map);  // also without a map
+bool is_valid(const SharedLawMap& map);  // exists without a map, too
 bool is_valid(const SceneTransforms& transforms, const SharedModel& model);
 bool is_valid(const Selection& selection, const SharedModel& model);
 bool is_valid(const HandScript& script);

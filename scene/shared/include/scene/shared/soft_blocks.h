@@ -89,7 +89,7 @@ double meniscus_pull_n(double tip_radius_m, double surface_tension_n_per_m) noex
 
 // ---- written by touchafm-servo ----
 
-// What a tip with ink has done; part of TipPush.
+// Work of a tip with ink; part of TipPush.
 struct InkPush {
   double covered_m2 = 0;     // area of all strokes
   double flowed_s = 0;       // duration of the newest touch
