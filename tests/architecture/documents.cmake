@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DROOT=... -P documents.cmake
 # Every test that a document names exists: `Suite.Case`, `Suite.*`, `Suite.Beginning*` and files below tests/. So does every path
-# in backticks that begins with a folder of the tree, as a file, a folder, or a header as it is included.
+# in backticks that begins with a folder of the tree, as a file, a folder, or a header as it is included. Each term has one row in
+# the glossary.
 cmake_minimum_required(VERSION 3.25)
 
 # all cases, from TEST and its relatives and from add_test
@@ -77,8 +78,22 @@ foreach(document ${documents})
   endforeach()
 endforeach()
 
-if(case_count LESS 1000 OR named LESS 100)
-  message(FATAL_ERROR "only ${named} names in the documents and ${case_count} tests were found: too few")
+set(terms "")
+file(STRINGS ${ROOT}/docs/glossary.md rows REGEX "^\\| .* \\| .* \\| .* \\|$")
+foreach(row IN LISTS rows)
+  string(REGEX REPLACE "^\\| ([^|]*) \\|.*" "\\1" names "${row}")
+  string(REGEX REPLACE "[,;] *" ";" names "${names}")
+  foreach(name IN LISTS names)
+    if(name IN_LIST terms)
+      string(APPEND faults "docs/glossary.md: ${name}: a term with two rows\n")
+    endif()
+    list(APPEND terms "${name}")
+  endforeach()
+endforeach()
+list(LENGTH terms term_count)
+
+if(case_count LESS 1000 OR named LESS 100 OR term_count LESS 100)
+  message(FATAL_ERROR "only ${named} names in the documents, ${term_count} terms and ${case_count} tests were found: too few")
 endif()
 if(faults)
   message(FATAL_ERROR "${faults}")
