@@ -9,6 +9,7 @@
 #include "app/display/view_outputs.h"
 #include "app/view/parameter_edits.h"
 #include "core/log.h"
+#include "exhibit/cluster/shared_picture.h"
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/friction/friction_history.h"
 #include "exhibit/scan/live_scan.h"
@@ -101,20 +102,26 @@ void ClusterMaster::follow_scan(const exhibit::LiveScan* scan, std::size_t mater
 }
 
 void ClusterMaster::follow_particles(const exhibit::ParticlesNow& now, std::size_t count) {
-  const std::size_t known = pages_.size();
-  pages_.resize(std::max(known, now.pages.size()));
+  const std::size_t before = pages_.size();
+  pages_.resize(std::max(before, now.pages.size()));
+  known_.resize(pages_.size() * scene::kPosesPerPage);
   for (std::size_t i = 0; i < std::min(count, now.pages.size() * scene::kPosesPerPage); ++i) {
     const std::size_t page = i / scene::kPosesPerPage;
     scene::ParticlePose& sent = pages_[page].poses[i % scene::kPosesPerPage];
     const scene::ParticlePose& pose = now.pages[page].poses[i % scene::kPosesPerPage];
-    if (page < known && sent == pose) continue;
+    const auto known = static_cast<std::uint8_t>(exhibit::known_of(now, i));
+    if (page < before && sent == pose && known_[i] == known) continue;
     sent = pose;
-    link_->record(cluster::JournalRecord(cluster::PoseRecord{.particle = static_cast<std::uint32_t>(i), .pose = pose}));
+    known_[i] = known;
+    link_->record(cluster::JournalRecord(
+        cluster::PoseRecord{.particle = static_cast<std::uint32_t>(i), .known = known, .pose = pose}));
   }
   push_ = now.push;
   link_->record(cluster::JournalRecord(push_));
   if (std::exchange(score_, now.score) != now.score) link_->record(cluster::JournalRecord(score_));
   if (std::exchange(plan_, now.plan) != now.plan) link_->record(cluster::JournalRecord(plan_));
+  const cluster::PictureRecord picture = exhibit::record_of(now);
+  if (std::exchange(picture_, picture) != picture) link_->record(cluster::JournalRecord(picture_));
   follow_marks(now);
 }
 
@@ -150,8 +157,8 @@ void ClusterMaster::send(cluster::FrameMessage& frame, ParameterEdits& edits, co
     for (const auto& edit : edits_) {
       if (edit) newest.push_back(*edit);
     }
-    const auto history =
-        exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_, score_, plan_, tiles_);
+    const auto history = exhibit::save_history(link_->recorded(), cycles, friction, newest, scan_, pages_, push_,
+                                               score_, plan_, tiles_, known_, picture_);
     if (history.size() <= cluster::kMostDocumentBytes) link_->send_history(history);
   }
   link_->send(++number_, frame);

@@ -49,8 +49,8 @@ class ClusterMaster {
   // hand's motion, and again before the frame is sent.
   void follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun);
 
-  // Sends the poses that have changed, the push, a score that has changed, and rows of marks that have changed, as many
-  // as fit. Call before the frame that shows them is sent; `count` particles.
+  // Sends the poses that have changed, the push, a score and a picture that have changed, and rows of marks that have
+  // changed, as many as fit. Call before the frame that shows them is sent; `count` particles.
   void follow_particles(const exhibit::ParticlesNow& now, std::size_t count);
 
   // The same particles with the marks that have been sent; valid until the next follow_particles().
@@ -104,9 +104,11 @@ class ClusterMaster {
   std::vector<cluster::ScanRecord> scan_;                  // newest recorded state of the scan
   std::uint64_t scan_begun_ = 0;
   std::vector<scene::ParticlePage> pages_;  // as recorded
+  std::vector<std::uint8_t> known_;         // the same: servo::Known of each pose
   scene::TipPush push_;
   scene::TaskScore score_;
   scene::PlannedPush plan_;
+  cluster::PictureRecord picture_;
   std::vector<scene::MarkTile> tiles_;  // as recorded; empty: the tip leaves no marks
   std::uint64_t marks_ = 0;             // number of recorded rows
   std::uint64_t marks_heard_ = 0;       // ParticlesNow::marks of the newest frame

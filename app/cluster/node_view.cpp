@@ -17,6 +17,7 @@
 #include "exhibit/cluster/frame_digest.h"
 #include "exhibit/cluster/frame_inputs.h"
 #include "exhibit/cluster/living_screens.h"
+#include "exhibit/cluster/shared_picture.h"
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/frame/blank_picture.h"
 #include "exhibit/frame/exhibit_setup.h"
@@ -215,12 +216,16 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   const bool marks = stage_.particles && scene::leaves_marks(*stage_.particles);
   if (marks) history_->tiles.resize(scene::kMarkTiles);
   if (adjusted_) adjusted_->use(history_->push.settings);
+  const auto picture =
+      stage_.particles ? exhibit::picture_of(*history_, stage_.particles->particles.size()) : std::nullopt;
   const exhibit::ParticlesNow particles{
       .set = adjusted_ ? &adjusted_->set() : nullptr,
       .pages = history_->pages,
       .push = history_->push,
       .score = history_->score,
       .plan = history_->plan,
+      .picture = picture ? &*picture : nullptr,
+      .look_load_n = history_->picture.look_load_n,
       .tiles = marks ? std::span<const scene::MarkTile>(history_->tiles) : std::span<const scene::MarkTile>(),
       .marks = history_->marks,
       .limits = adjusted_ ? &adjusted_->limits() : nullptr};

@@ -258,8 +258,6 @@ bool taps_alone(const ViewOptions& options) {
 }
 
 core::Result<void> lay_particles(const ViewOptions& options, const exhibit::Stage& stage, scene::SharedModel& model) {
-  if (options.level.level > 0 && options.cluster.wanted)
-    return core::wrong_usage("--level of particles does not reach the machines of --cluster; remove one");
   if (stage.particles) model.particles = scene::shared_particles(*stage.particles);
   return scene::set_level(options.level, model.particles);
 }

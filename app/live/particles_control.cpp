@@ -63,15 +63,6 @@ using scene::PushSetting;
 using scene::PushSettings;
 using scene::PushTool;
 
-// Nothing if the settings can be used with this device.
-std::optional<scene::PushRefusal> refusal(const scene::SharedParticles& particles, const PushSettings& settings,
-                                          const scene::SharedDevice& device) {
-  if (auto refused = scene::refusal(particles, settings)) return refused;
-  const auto scale = haptics::adjusted_scale(particles, settings, haptics::spec_of(device));
-  if (scale) return std::nullopt;
-  return scene::PushRefusal{scene::PushRefusal::Why::Lever, scale.error().message};
-}
-
 exhibit::Phrase phrase_of(scene::PushRefusal::Why why) {
   using Why = scene::PushRefusal::Why;
   switch (why) {
@@ -139,7 +130,7 @@ void ParticlesControl::look_again() {
   if (!parts_.servo.running()) return;
   const servo::LivePicture* picture = parts_.servo.picture();
   if (picture == nullptr)
-    return core::log_line("look again: the particles themselves are shown; --level 1 or 2 hides them");
+    return core::log_line("look again: the particles themselves are shown; level 1 or 2 hides them");
   if (picture->looks()) return core::log_line("look again: a look goes on");
   if (!picture->lifted()) core::log_line("look again: as soon as the tip is lifted off the particles");
   order_ = Order::Look;
@@ -147,7 +138,7 @@ void ParticlesControl::look_again() {
 
 void ParticlesControl::next_look_load() {
   if (parts_.servo.picture() == nullptr)
-    return core::log_line("load of a look: the particles themselves are shown; --level 1 or 2 hides them");
+    return core::log_line("load of a look: the particles themselves are shown; level 1 or 2 hides them");
   look_load_ = (look_load_ + 1) % kLookLoads.size();
   const physics::Force gentle = exhibit::gentle_look(*now_.set), load = kLookLoads[look_load_] * gentle;
   now_.look_load_n = load.si;
@@ -173,6 +164,15 @@ void ParticlesControl::sweep(const ViewFrame& frame) {
                             .load_pn = piconewtons(now_.look_load_n)});
 }
 
+std::optional<scene::PushRefusal> ParticlesControl::refusal(const PushSettings& settings) const {
+  using Why = scene::PushRefusal::Why;
+  const servo::ServoClient& link = parts_.servo.link();
+  const scene::SharedParticles& particles = link.model().particles;
+  if (auto refused = scene::refusal(particles, settings)) return refused;
+  const auto scale = haptics::adjusted_scale(particles, settings, haptics::spec_of(link.device()));
+  return scale ? std::nullopt : std::optional(scene::PushRefusal{Why::Lever, scale.error().message});
+}
+
 void ParticlesControl::choose_next(PushSetting setting) {
   if (!parts_.servo.running()) return;
   const scene::SharedParticles& particles = parts_.servo.link().model().particles;
@@ -186,7 +186,7 @@ void ParticlesControl::choose_next(PushSetting setting) {
     if (value != 0 && !scene::differs(particles, setting, value)) continue;
     const PushSettings next = scene::with(chosen, setting, value);
     const std::string text = fmt::format("{} {}", row.name, exhibit::value_text(setting, value, set_));
-    if (auto why = refusal(particles, next, parts_.servo.link().device())) {
+    if (auto why = refusal(next)) {
       core::log_line(fmt::format("{}: not here; {}", text, why->text));
       refused = std::move(why);
       continue;
@@ -238,6 +238,7 @@ void ParticlesControl::follow_settings() {
   now_.limits = &adjusted_->limits();
   const PushSettings& now = now_.push.settings;
   const PushSettings before = std::exchange(settings_, now);
+  if (now != before) now_.look_load_n = kLookLoads[look_load_] * exhibit::gentle_look(*now_.set).si;
   if (before.tool == PushTool::OfSet || now.tool == PushTool::OfSet) return;
   const exhibit::Phrases& phrases = parts_.stage.phrases();
   for (const scene::PushSettingText& row : scene::kPushSettings) {
@@ -310,7 +311,8 @@ void ParticlesControl::give(Order order) {
 void ParticlesControl::update(const ViewFrame& frame) {
   const servo::ServoClient& link = parts_.servo.link();
   const servo::LivePicture* picture = parts_.servo.picture();
-  now_.pages = picture != nullptr ? picture->shown() : link.particle_pages();
+  const bool measured = picture != nullptr && !picture->shown().empty();  // not yet, right after a change of the level
+  now_.pages = measured ? picture->shown() : link.particle_pages();
   now_.picture = picture != nullptr ? &picture->now() : nullptr;
   now_.push = link.push();
   now_.tiles = link.mark_tiles();

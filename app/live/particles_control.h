@@ -19,6 +19,7 @@ struct WallState;
 namespace afm::scene {
 class AdjustedSet;
 enum class PushSetting : std::uint8_t;
+struct PushRefusal;
 }  // namespace afm::scene
 namespace afm::input {
 struct Ray;
@@ -69,6 +70,9 @@ class ParticlesControl final : public ViewControl {
 
   // Settings for the servo; `text` names the changed one in the log.
   void choose(const scene::PushSettings& settings, const std::string& text);
+
+  // Nothing if the settings can be used here.
+  std::optional<scene::PushRefusal> refusal(const scene::PushSettings& settings) const;
 
   // The servo carries it out only without force, so the request waits until there is none.
   void give(Order order);

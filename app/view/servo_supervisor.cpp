@@ -143,13 +143,8 @@ void ServoSupervisor::update(std::int64_t now_ns) {
 
 // A servo that has been taken over has particles elsewhere: they are measured as they lie.
 void ServoSupervisor::follow_picture(const scene::TipSample& sample) {
-  const scene::SharedParticles& particles = link_->model().particles;
-  if (particles.level.level == 0) return;
-  if (!picture_) {
-    auto picture = servo::LivePicture::create(particles, link_->device());
-    AFM_CHECK(picture);  // the servo has built the same particles for this device
-    picture_ = std::move(*picture);
-  }
+  servo::follow_settings(picture_, link_->model().particles, link_->device(), sample.settings);
+  if (!picture_) return;
   const std::uint64_t looks = picture_->now().looks;
   picture_->add(sample, link_->particle_pages());
   if (picture_->now().looks > looks) core::log_line(servo::text_of(picture_->now().newest));

@@ -78,7 +78,14 @@ bool is_valid(const ScanRecord& scan) {
 bool is_valid(const PoseRecord& record) {
   double square = 0;
   for (const double part : record.pose.orientation) square += part * part;
-  return sound(record) && record.particle < scene::kMaxParticles && std::abs(square - 1.0) < kUnitTolerance;
+  return sound(record) && record.particle < scene::kMaxParticles && record.known <= PictureRecord::kMostKnown &&
+         std::abs(square - 1.0) < kUnitTolerance;
+}
+
+bool is_valid(const PictureRecord& picture) {
+  return sound(picture) && picture.level <= scene::kHighestLevel && picture.particle < scene::kMaxParticles &&
+         picture.newest_particle < scene::kMaxParticles && picture.all_measured <= 1 && picture.newest_found <= 1 &&
+         picture.looking <= 1;
 }
 
 bool is_valid(const MarkRecord& record) {
@@ -162,6 +169,8 @@ bool JournalRecord::valid() const {
       return scene::is_valid(plan(), most_materials());
     case JournalKind::Mark:
       return is_valid(mark());
+    case JournalKind::Picture:
+      return is_valid(picture());
     case JournalKind::Forget:
     case JournalKind::ScanEnd:
       break;

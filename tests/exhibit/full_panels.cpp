@@ -126,7 +126,7 @@ std::vector<render::DataPanel> full_particles(const Phrases& phrases) {
       push.softened_sideways = 123.4;
       push.strokes = scene::kMostStrokes;
       scene::TipPush changed = push;
-      changed.settings = {.law = 4, .lever = 4, .tip = 4, .medium = 1};
+      changed.settings = {.law = 4, .lever = 4, .tip = 4, .medium = 1, .level = 3};
       for (const physics::ParticleLawText& law : physics::kParticleLaws) {
         set.setup.species.front().law = law.law;
         for (const scene::TaskState task : core::kEnumerators<scene::TaskState>) {

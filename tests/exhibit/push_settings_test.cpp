@@ -72,10 +72,14 @@ TEST_F(PushSettings, HaveTheirOwnSources) {
   EXPECT_THAT(row(soft, "Lever at least").source, HasSubstr("in use: 100 mN/m"));
 }
 
+TEST_F(PushSettings, NameTheLevel) {
+  EXPECT_EQ(row(panel({.level = 3}), "Changed"), (render::DataRow{"Changed", "1", "Level 2"}));
+}
+
 TEST_F(PushSettings, HaveGermanWords) {
   const Phrases german = Phrases::load(test::kPhraseFolder + "de.toml").value();
-  const render::DataPanel soft = panel({.lever = 4, .medium = 2}, german);
-  EXPECT_EQ(row(soft, german[Phrase::SettingsChanged]).source, "Federbalken 40 N/m, Umgebung Wasser");
+  const render::DataPanel soft = panel({.lever = 4, .medium = 2, .level = 2}, german);
+  EXPECT_EQ(row(soft, german[Phrase::SettingsChanged]).source, "Federbalken 40 N/m, Umgebung Wasser, Stufe 1");
   EXPECT_THAT(row(soft, german[Phrase::WorkOfAdhesion]).source, HasSubstr("Fünftel"));
 }
 

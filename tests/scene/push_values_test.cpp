@@ -64,8 +64,7 @@ TEST(PushValues, AreRefusedWithTheReason) {
   EXPECT_EQ(why(*shared("tube-and-electrodes"), PushTool::Grip), Why::NoAdhesion);
   const auto old = shared("gold-row");
   ASSERT_TRUE(scene::set_level({.level = 1}, *old));
-  EXPECT_EQ(why(*old, PushTool::Grip), Why::Picture);
-  EXPECT_FALSE(scene::refusal(*old, {.tool = PushTool::Push})) << "in use";
+  for (const PushTool tool : {PushTool::Push, PushTool::Grip}) EXPECT_FALSE(scene::refusal(*old, {.tool = tool}));
   const auto soft = shared("gold-row");
   soft->pusher.contact_stiffness_n_per_m = 0.3;
   const auto refused = scene::refusal(*soft, {.tool = PushTool::Grip});
@@ -96,6 +95,13 @@ TEST(PushValues, ChangeTheirOwnNumbersAlone) {
   *wanted = *gold;
   wanted->species[0].law = physics::ParticleLaw::Amontons;
   EXPECT_EQ(*with(PushSetting::Law, 2), *wanted);
+  *wanted = *gold;
+  wanted->level.level = 2;
+  EXPECT_EQ(*with(PushSetting::Level, 3), *wanted);
+  *wanted = *gold;
+  wanted->level = {.level = 1, .seed = 7, .since_ns = 8};
+  scene::adjust({.level = 3}, *wanted);
+  EXPECT_EQ(wanted->level, (scene::SharedLevel{.level = 2, .seed = 7})) << "another level: its drift begins anew";
   // 4 pi R gamma of a meniscus is 1.92 times the pull-off, as in N08
   *wanted = *gold;
   const auto humid = with(PushSetting::Medium, 1);
@@ -125,7 +131,13 @@ TEST(PushValues, AreRefusedWithTheirOwnReasons) {
   EXPECT_THAT(refused(*gold, {.law = 4}).text, HasSubstr("no numbers for the friction law measured"));
   const auto old = shared("gold-row");
   ASSERT_TRUE(scene::set_level({.level = 2}, *old));
-  EXPECT_EQ(refused(*old, {.medium = 1}).why, Why::Picture);
+  EXPECT_FALSE(scene::refusal(*old, {.medium = 1}));
+  // no picture where the tip lifts or turns the particles
+  EXPECT_EQ(refused(*shared("islands"), {.level = 2}).why, Why::Picture);
+  EXPECT_THAT(refused(*shared("islands"), {.level = 2}).text, HasSubstr("no level 1: only spheres and rods"));
+  const auto lifts = shared("pick-and-place");
+  EXPECT_THAT(refused(*lifts, {.level = 3}).text, HasSubstr("no level 2: the tip lifts these spheres"));
+  EXPECT_FALSE(scene::refusal(*lifts, {.tool = PushTool::Push, .level = 3}));
   EXPECT_EQ(refused(*shared("write-ink"), {.lever = 1}).why, Why::Marks);
   // half a tip's radius is the smallest sphere
   const auto small = shared("gold-row");

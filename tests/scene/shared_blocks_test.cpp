@@ -222,8 +222,8 @@ TEST(SharedBlocks, SayYesOrNoByOneOrZeroAlone) {
     EXPECT_EQ(is_valid(RendererHeartbeat{.unseen = answer}), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.device_healthy = answer}, model), good) << answer;
     EXPECT_EQ(is_valid(TipSample{.changing = answer}, model), good) << answer;
-    EXPECT_EQ(is_valid(TipPush{.met = static_cast<std::uint16_t>(answer)}, model), good) << answer;
-    EXPECT_EQ(is_valid(TipPush{.lagging = static_cast<std::uint16_t>(answer)}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipPush{.met = static_cast<std::uint8_t>(answer)}, model), good) << answer;
+    EXPECT_EQ(is_valid(TipPush{.lagging = static_cast<std::uint8_t>(answer)}, model), good) << answer;
     device.has_own_hand = answer;
     EXPECT_EQ(is_valid(device), good) << answer;
   }

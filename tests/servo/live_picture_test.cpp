@@ -213,6 +213,33 @@ TEST(LivePicture, IsRecordedAndDrawnAgainBitForBit) {
   }
 }
 
+TEST(LivePicture, GoesOnWithOtherSettingsAndIsMeasuredAtAnotherLevel) {
+  Pushed pushed(0);
+  const auto choose = [&pushed](const scene::PushSettings& settings) {
+    pushed.recording.choose(test::kMica, ScaleMode::Particles, settings);
+    pushed.recording.run(500);
+  };
+  pushed.recording.run(100);
+  EXPECT_EQ(pushed.recording.picture, nullptr);
+  choose({.level = 3});
+  pushed.recording.run(60'000);
+  pushed.push();
+  EXPECT_EQ(pushed.now().level, 2U);
+  EXPECT_EQ(pushed.now().known[0], Known::Computed);
+  const glm::dvec2 shown_m = place(pushed.recording.picture->shown(), 0);
+  EXPECT_NE(shown_m, place(pushed.recording.pages(), 0));
+  choose({.law = 2, .level = 3});
+  EXPECT_EQ(pushed.recording.sessions.size(), 3U);
+  EXPECT_EQ(pushed.now().known[0], Known::Computed);
+  EXPECT_EQ(place(pushed.recording.picture->shown(), 0), shown_m);
+  choose({.law = 2, .level = 2});
+  EXPECT_EQ(pushed.now().level, 1U);
+  EXPECT_THAT(pushed.now().known, testing::Each(Known::Measured));
+  EXPECT_EQ(place(pushed.recording.picture->shown(), 0), place(pushed.recording.pages(), 0));
+  choose({.law = 2});
+  EXPECT_EQ(pushed.recording.picture, nullptr);
+}
+
 TEST(LivePicture, OfADamagedFileIsRefused) {
   Pushed pushed(2);
   pushed.recording.run(100);

@@ -178,8 +178,8 @@ class Recording {
  private:
   void draw(const scene::TipSample& sample, const std::vector<scene::TipEvent>& came) {
     const scene::SharedParticles& particles = segment_.model().particles;
-    if (particles.level.level == 0) return;
-    if (!picture) picture = std::move(*LivePicture::create(particles, *renderer_.device()));
+    follow_settings(picture, particles, *renderer_.device(), sample.settings);
+    if (!picture) return;
     for (const scene::TipEvent& event : came) picture->add(event);
     picture->add(sample, pages_);
   }

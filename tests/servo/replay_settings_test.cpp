@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "servo/recorded_servo.h"
 #include "servo/session_file.h"
@@ -14,15 +17,15 @@
 namespace afm::servo {
 namespace replay_settings_test {
 
-// Lifts, goes before the row, pushes along it, and lifts again.
-void push(Recording& recording, double beside_m) {
+// Lifts, goes before the row, pushes along it up to a place, and lifts again.
+void push(Recording& recording, double beside_m, double to_m = 0.020) {
   struct Goal {
     double x_m, height_m, seconds;
     int ticks;
   };
   recording.arm();
   for (const Goal& goal : std::array{Goal{-0.028, 0.03, 0.3, 500}, Goal{-0.028, 0.001, 0.3, 500},
-                                     Goal{0.020, 0.001, 1.5, 1800}, Goal{0.020, 0.05, 0.3, 600}}) {
+                                     Goal{to_m, 0.001, 1.5, 1800}, Goal{to_m, 0.05, 0.3, 600}}) {
     recording.go({goal.x_m, beside_m}, goal.height_m, goal.seconds);
     recording.run(goal.ticks);
   }
@@ -57,6 +60,44 @@ TEST(ReplayOfSettings, GivesEveryBitAgain) {
   EXPECT_EQ(recording.sessions[2].particles->set.pusher.normal_spring_n_per_m, 40.0);
   EXPECT_EQ(recording.sessions[2].particles->set.pusher.tip_radius_m, 20e-9);
   EXPECT_TRUE(scene::has_hold(recording.sessions[2].particles->set));
+}
+
+// Levels that are chosen while the servo runs: a session each, whose picture is drawn again as it was.
+TEST(ReplayOfSettings, GivesEveryBitAgainAtAnotherLevel) {
+  Recording recording(test::model_with_particles());
+  std::vector<std::vector<scene::ParticlePage>> shown;
+  std::vector<std::uint32_t> levels;
+  const auto feel = [&](const scene::PushSettings& settings, double to_m) {
+    recording.choose(test::kMica, scene::ScaleMode::Particles, settings);
+    push(recording, 0.0, to_m);
+    const LivePicture* picture = recording.picture.get();
+    levels.push_back(picture != nullptr ? picture->now().level : 0);
+    const auto pages = picture != nullptr ? picture->shown() : std::span<const scene::ParticlePage>(recording.pages());
+    shown.emplace_back(pages.begin(), pages.end());
+  };
+  feel({}, -0.005);
+  feel({.level = 3}, 0.001);
+  feel({.lever = 4, .level = 3}, 0.007);
+  feel({.law = 2, .level = 2}, 0.013);
+  feel({.level = 1}, 0.019);
+  EXPECT_EQ(levels, (std::vector<std::uint32_t>{0, 2, 2, 1, 0}));
+  EXPECT_NE(shown[2], shown[1]) << "something was pushed";
+  ASSERT_EQ(recording.sessions.size(), levels.size());
+  const support::ScratchFolder folder;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const RecordedSession& session = recording.sessions[i];
+    EXPECT_EQ(session.particles->set.level.level, levels[i]);
+    const std::string path = folder.file("level.afms");
+    ASSERT_TRUE(save_session(session, path));
+    const auto loaded = load_session(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->particles->set, session.particles->set);
+    expect_same(*loaded);
+    const auto then = replay_particles(*loaded, session.samples.back().time_ns);
+    ASSERT_TRUE(then) << then.error().message;
+    EXPECT_EQ(then->picture.has_value(), levels[i] > 0);
+    EXPECT_EQ(then->pages, shown[i]) << "session " << i;
+  }
 }
 
 }  // namespace replay_settings_test

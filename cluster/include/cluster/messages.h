@@ -23,7 +23,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 11;
+inline constexpr std::uint32_t kClusterVersion = 12;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {
@@ -144,10 +144,10 @@ constexpr void for_each_field(Visit&& visit, Record&... scan) {
 }
 static_assert(scene::all_fields_described<ScanRecord>());
 
-// Pose of a particle that has changed.
+// Pose of a particle, or how the picture knows it, that has changed.
 struct PoseRecord {
   std::uint32_t particle = 0;
-  std::uint32_t padding = 0;
+  std::uint32_t known = 0;  // servo::Known
   scene::ParticlePose pose{};
 
   bool operator==(const PoseRecord&) const = default;
@@ -156,10 +156,51 @@ struct PoseRecord {
 template <class Visit, scene::RecordOf<PoseRecord>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... record) {
   visit("particle", record.particle...);
-  visit("padding", record.padding...);
+  visit("known", record.known...);
   visit("pose", record.pose...);
 }
 static_assert(scene::all_fields_described<PoseRecord>());
+
+// Picture of the particles at level 1 and 2: servo::PictureNow without what PoseRecord has, and the load of a look.
+struct PictureRecord {
+  static constexpr std::uint32_t kMostKnown = 2;  // largest servo::Known
+
+  std::uint32_t level = 0;  // 0: there is none, and all else is ignored
+  std::uint32_t particle = 0;
+  std::uint32_t all_measured = 1;
+  std::uint32_t looks = 0;
+  std::uint32_t newest_particle = 0;
+  std::uint32_t newest_lines = 0;
+  std::uint32_t newest_found = 0;  // 1: newest_off_m is known
+  std::uint32_t looking = 0;       // 1: look_share is that of the current look
+  double look_share = 0;
+  double age_s = 0;
+  double doubt_m = 0;
+  double newest_off_m = 0;
+  double newest_swept_above_n = 0;
+  double look_load_n = 0;  // with which the next look scans
+
+  bool operator==(const PictureRecord&) const = default;
+};
+
+template <class Visit, scene::RecordOf<PictureRecord>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... record) {
+  visit("level", record.level...);
+  visit("particle", record.particle...);
+  visit("all_measured", record.all_measured...);
+  visit("looks", record.looks...);
+  visit("newest_particle", record.newest_particle...);
+  visit("newest_lines", record.newest_lines...);
+  visit("newest_found", record.newest_found...);
+  visit("looking", record.looking...);
+  visit("look_share", record.look_share...);
+  visit("age_s", record.age_s...);
+  visit("doubt_m", record.doubt_m...);
+  visit("newest_off_m", record.newest_off_m...);
+  visit("newest_swept_above_N", record.newest_swept_above_n...);
+  visit("look_load_N", record.look_load_n...);
+}
+static_assert(scene::all_fields_described<PictureRecord>());
 
 // Row of a MarkTile that has changed.
 struct MarkRecord {
@@ -181,8 +222,8 @@ constexpr void for_each_field(Visit&& visit, Record&... record) {
 static_assert(scene::all_fields_described<MarkRecord>());
 
 // Records that every node must receive completely and in order: each sample and jump of the tip, each edit, each change
-// of a scan, each particle that has moved, the push of a frame, the score of a task, the plan of a push, and each row
-// of marks that has changed.
+// of a scan, each particle that has moved, the push of a frame, the score of a task, the plan of a push, each row of
+// marks that has changed, and the picture of the particles.
 enum class JournalKind : std::uint32_t {
   Sample = 0,
   Event = 1,
@@ -195,7 +236,8 @@ enum class JournalKind : std::uint32_t {
   Push = 8,
   Score = 9,
   Plan = 10,
-  Mark = 11
+  Mark = 11,
+  Picture = 12
 };
 
 class JournalRecord {
@@ -210,6 +252,7 @@ class JournalRecord {
   explicit JournalRecord(const scene::TaskScore& score) : kind_(JournalKind::Score) { set(score); }
   explicit JournalRecord(const scene::PlannedPush& plan) : kind_(JournalKind::Plan) { set(plan); }
   explicit JournalRecord(const MarkRecord& mark) : kind_(JournalKind::Mark) { set(mark); }
+  explicit JournalRecord(const PictureRecord& picture) : kind_(JournalKind::Picture) { set(picture); }
 
   JournalKind kind() const { return kind_; }
   // Valid only for records of that kind.
@@ -222,13 +265,14 @@ class JournalRecord {
   scene::TaskScore score() const { return get<scene::TaskScore>(); }
   scene::PlannedPush plan() const { return get<scene::PlannedPush>(); }
   MarkRecord mark() const { return get<MarkRecord>(); }
+  PictureRecord picture() const { return get<PictureRecord>(); }
 
   // True if enumerators are known, numbers finite, materials below scene::kMaxMaterials, and particles below
   // scene::kMaxParticles.
   bool valid() const;
 
  private:
-  // A sample without its end, what a picture of particles is computed from, which no other machine draws.
+  // A sample without its end, what a picture of particles is computed from, which no other machine computes.
   static constexpr std::size_t kBodyBytes = offsetof(scene::TipSample, level);
 
   template <class Body>

@@ -142,6 +142,8 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
       const cluster::PoseRecord moved = record.pose();
       if (pages.size() < scene::pages_of(moved.particle + 1)) pages.resize(scene::pages_of(moved.particle + 1));
       pages[scene::page_of(moved.particle)].poses[moved.particle % scene::kPosesPerPage] = moved.pose;
+      known.resize(pages.size() * scene::kPosesPerPage);
+      known[moved.particle] = static_cast<std::uint8_t>(moved.known);
       return;
     }
     case cluster::JournalKind::Push:
@@ -152,6 +154,9 @@ void WallHistory::apply(const cluster::JournalRecord& record) {
       return;
     case cluster::JournalKind::Plan:
       plan = record.plan();
+      return;
+    case cluster::JournalKind::Picture:
+      picture = record.picture();
       return;
     case cluster::JournalKind::Mark:
       put_row(record.mark(), tiles);
@@ -239,7 +244,8 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::ScanRecord> scan,
                                     std::span<const scene::ParticlePage> pages, const scene::TipPush& push,
                                     const scene::TaskScore& score, const scene::PlannedPush& plan,
-                                    std::span<const scene::MarkTile> tiles) {
+                                    std::span<const scene::MarkTile> tiles, std::span<const std::uint8_t> known,
+                                    const cluster::PictureRecord& picture) {
   HistoryWriter writer;
   writer(journal);
   writer(static_cast<std::uint64_t>(cycles.curves().size()));
@@ -252,6 +258,8 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
   writer(score);
   writer(plan);
   writer(changed_rows({}, tiles, kMostRows));
+  writer(std::vector<std::uint8_t>(known.begin(), known.end()));
+  writer(picture);
   return writer.take();
 }
 
@@ -272,6 +280,8 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
   reader(history.plan);
   std::vector<cluster::MarkRecord> rows;
   reader(rows);
+  reader(history.known);
+  reader(history.picture);
   const auto is_edit = [&](const cluster::EditRecord& edit) {
     return edit.material < materials && cluster::JournalRecord(edit).valid();
   };
@@ -286,7 +296,10 @@ std::optional<WallHistory> load_history(std::span<const std::byte> document, std
                      std::all_of(history.pages.begin(), history.pages.end(),
                                  [](const scene::ParticlePage& page) { return scene::is_valid(page); }) &&
                      cluster::JournalRecord(history.push).valid() && cluster::JournalRecord(history.score).valid() &&
-                     cluster::JournalRecord(history.plan).valid() &&
+                     cluster::JournalRecord(history.plan).valid() && cluster::JournalRecord(history.picture).valid() &&
+                     history.known.size() == history.pages.size() * scene::kPosesPerPage &&
+                     std::all_of(history.known.begin(), history.known.end(),
+                                 [](std::uint8_t known) { return known <= cluster::PictureRecord::kMostKnown; }) &&
                      std::all_of(rows.begin(), rows.end(),
                                  [](const cluster::MarkRecord& row) { return cluster::JournalRecord(row).valid(); });
   if (!valid) return std::nullopt;

@@ -30,7 +30,9 @@ physics::ParticleLaw own_law(const physics::PushSetup& setup) {
 }  // namespace
 
 const std::string& name_of(PushSetting setting, const Phrases& phrases) {
-  return phrases[setting == PushSetting::Tool ? Phrase::ToolName : after(Phrase::SettingLaw, core::index_of(setting))];
+  if (setting == PushSetting::Tool) return phrases[Phrase::ToolName];
+  if (setting == PushSetting::Level) return phrases[Phrase::SettingLevel];
+  return phrases[after(Phrase::SettingLaw, core::index_of(setting))];
 }
 
 std::string value_text(PushSetting setting, std::uint16_t value, const scene::ParticleSet& set) {
@@ -44,6 +46,8 @@ std::string value_text(PushSetting setting, std::uint16_t value, const scene::Pa
       return physics::format_quantity(set.setup.tip.radius, physics::kLengthUnits);
     case PushSetting::Medium:
       return set.medium;
+    case PushSetting::Level:
+      return "as at the start";
     case PushSetting::Tool:
       break;
   }
@@ -60,6 +64,7 @@ std::string value_name(PushSetting setting, std::uint16_t value, const scene::Pa
     const auto tool = value > 0 ? static_cast<scene::PushTool>(value) : scene::own_tool(set.setup);
     return phrases[tool == scene::PushTool::Grip ? Phrase::ToolGrip : Phrase::ToolPush];
   }
+  if (setting == PushSetting::Level && value == 0) return phrases[Phrase::SettingLevelOwn];
   const std::string text = value_text(setting, value, set);
   return setting == PushSetting::Medium ? phrases.word(text) : phrases.number(text);
 }

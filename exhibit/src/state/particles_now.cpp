@@ -8,8 +8,14 @@
 #include "physics/manipulation/pushed_particles.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/pattern_state.h"
+#include "servo/live_picture.h"
 
 namespace afm::exhibit {
+
+servo::Known known_of(const ParticlesNow& now, std::size_t particle) {
+  const bool told = now.picture != nullptr && particle < now.picture->known.size();
+  return told ? now.picture->known[particle] : servo::Known::Measured;
+}
 
 physics::Force gentle_look(const scene::ParticleSet& set) {
   physics::Force gentle{std::numeric_limits<double>::infinity()};

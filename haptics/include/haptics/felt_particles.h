@@ -62,7 +62,7 @@ class FeltParticles {
   void resume(std::span<const scene::ParticlePage> pages);
 
   // Continues for an object of the same particles with other settings, whose strokes can still be taken back; both wait
-  // for a lift. Call only without force.
+  // for a lift. At another level the sample is back where its drift began. Call only without force.
   void take_over(FeltParticles& before) noexcept;
 
   // Lets the sample drift up to this time; call once a tick, before step().

@@ -124,7 +124,7 @@ void FeltParticles::take_over(FeltParticles& before) noexcept {
   std::swap(pages_, before.pages_);
   std::swap(changed_, before.changed_);
   std::swap(strokes_, before.strokes_);
-  drift_ = before.drift_;
+  if (level_ == before.level_) drift_ = before.drift_;
   groove_.drop();
   groove_.follow(before.groove_.plan());
   digest_ = before.digest_;
@@ -334,7 +334,7 @@ scene::TipPush FeltParticles::push() const noexcept {
                       .yields = yields_before_ + tick.yields,
                       .exhausted = exhausted_before_ + tick.exhausted,
                       .accounts = accounts_,
-                      .met = static_cast<std::uint16_t>(tip_ == Tip::Waits ? 0 : 1),
+                      .met = static_cast<std::uint8_t>(tip_ == Tip::Waits ? 0 : 1),
                       .strokes = static_cast<std::uint16_t>(strokes_.size())};
   if (!among) return push;
   const glm::dvec2& way_m = drift_.way_m();

@@ -46,6 +46,7 @@ std::vector<double> numbers_of(const SharedParticles& particles, PushSetting set
   const SharedPusher& pusher = particles.pusher;
   if (setting == PushSetting::Lever) return {pusher.lateral_spring_n_per_m, pusher.normal_spring_n_per_m};
   if (setting == PushSetting::Tip) return {pusher.tip_radius_m};
+  if (setting == PushSetting::Level) return {static_cast<double>(particles.level.level)};
   std::vector<double> numbers;
   for (const SharedSpecies& species : particles.species) {
     if (setting == PushSetting::Law) numbers.push_back(static_cast<double>(core::index_of(species.law)));
@@ -89,6 +90,8 @@ std::uint16_t value_of(const PushSettings& settings, PushSetting setting) noexce
       return settings.tip;
     case PushSetting::Medium:
       return settings.medium;
+    case PushSetting::Level:
+      return settings.level;
     case PushSetting::Tool:
       break;
   }
@@ -108,6 +111,9 @@ PushSettings with(PushSettings settings, PushSetting setting, std::uint16_t valu
       break;
     case PushSetting::Medium:
       settings.medium = value;
+      break;
+    case PushSetting::Level:
+      settings.level = value;
       break;
     case PushSetting::Tool:
       settings.tool = static_cast<PushTool>(value);
@@ -132,6 +138,8 @@ std::string text_of(PushSetting setting, std::uint16_t value) {
       return physics::format_quantity(kTipValues.at(value), physics::kLengthUnits);
     case PushSetting::Medium:
       return kMediumValues.at(value).word;
+    case PushSetting::Level:
+      return fmt::format("{}", value - 1);
     case PushSetting::Tool:
       break;
   }
@@ -165,6 +173,10 @@ void adjust(const PushSettings& settings, physics::PushSetup& setup) noexcept {
 
 void adjust(const PushSettings& settings, SharedParticles& particles) {
   if (particles.count == 0 || settings == PushSettings{}) return;
+  if (settings.level > 0 && particles.level.level != settings.level - 1U) {
+    particles.level.level = settings.level - 1U;
+    particles.level.since_ns = 0;
+  }
   physics::PushSetup setup = push_setup(particles);
   adjust(settings, setup);
   particles.pusher.lateral_spring_n_per_m = setup.springs.lateral.si;
@@ -205,14 +217,11 @@ std::optional<PushSettings> settings_between(const SharedParticles& set, const S
 std::optional<PushRefusal> refusal(const SharedParticles& particles, const PushSettings& settings) {
   using Why = PushRefusal::Why;
   if (particles.count == 0) return PushRefusal{Why::Marks, "the tip leaves marks here, and has one tool for that"};
-  if (*adjusted(particles, settings) == particles) {
+  const auto with_settings = adjusted(particles, settings);
+  if (*with_settings == particles) {
     const bool grips = settings.tool == PushTool::Grip && own_tool(push_setup(particles)) != PushTool::Grip;
     return grips ? std::optional(PushRefusal{Why::NoAdhesion, "the set has no spheres with a tip_adhesion"})
                  : std::nullopt;
-  }
-  if (particles.level.level > 0) {
-    return PushRefusal{Why::Picture, fmt::format("at level {} the picture is computed for the settings of the set",
-                                                 particles.level.level)};
   }
   physics::PushSetup setup = push_setup(particles);
   if (settings.tool == PushTool::Grip && std::none_of(setup.species.begin(), setup.species.end(), can_stick)) {
@@ -228,7 +237,9 @@ std::optional<PushRefusal> refusal(const SharedParticles& particles, const PushS
   } catch (const std::invalid_argument& error) {
     return PushRefusal{Why::Lever, error.what()};
   }
-  return std::nullopt;
+  const std::string no_level = with_settings->level.level > 0 ? why_no_level(*with_settings) : std::string();
+  if (no_level.empty()) return std::nullopt;
+  return PushRefusal{Why::Picture, fmt::format("no level {}: {}", with_settings->level.level, no_level)};
 }
 
 }  // namespace afm::scene

@@ -75,11 +75,15 @@ class LivePicture {
   const PictureState& state() const { return state_; }
   const PictureNow& now() const { return now_; }  // after the newest sample
 
+  const scene::PushSettings& settings() const { return settings_; }  // as given to follow_settings(); default: none
+
   bool looks() const { return look_ != nullptr; }
   std::optional<LookSquare> square() const;  // square of the current look
   bool lifted() const { return lifted_; }    // a look can begin
 
  private:
+  friend void follow_settings(std::unique_ptr<LivePicture>&, const scene::SharedParticles&, const scene::SharedDevice&,
+                              const scene::PushSettings&);
   struct Look;
 
   LivePicture(const scene::SharedParticles& set, double clear_z_m, std::vector<scene::ParticlePage> first,
@@ -110,6 +114,7 @@ class LivePicture {
   PictureState state_;
   PictureNow now_;
   std::unique_ptr<Look> look_;
+  scene::PushSettings settings_{};
   bool ordered_ = false;   // a look, by an event before the next sample
   bool put_back_ = false;  // the same for all particles
   bool lifted_ = false;
@@ -118,6 +123,11 @@ class LivePicture {
   glm::dvec2 tip_m_{0.0};
   double tip_z_m_ = 0;
 };
+
+// Makes `picture` that of a set with the settings of the next sample: none at level 0. At the same level its places
+// stay; at another one all is measured at the next tick. `set` is valid, and the device can push it with the settings.
+void follow_settings(std::unique_ptr<LivePicture>& picture, const scene::SharedParticles& set,
+                     const scene::SharedDevice& device, const scene::PushSettings& settings);
 
 // What a look has found, in one line for a log.
 std::string text_of(const LookResult& look);

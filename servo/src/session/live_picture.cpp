@@ -10,12 +10,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/check.h"
 #include "haptics/felt_particles.h"
 #include "haptics/particle_push.h"
 #include "physics/manipulation/operators_picture.h"
 #include "physics/manipulation/particle_picture.h"
 #include "physics/manipulation/push_figures.h"
 #include "physics/quantity_text.h"
+#include "scene/shared/push_values.h"
 
 namespace afm::servo {
 
@@ -283,6 +285,20 @@ void LivePicture::figure() {
   now_.doubt_m = doubts_[now_.particle].after(age_of(now_.particle)).si;
   now_.look_share.reset();
   if (look_) now_.look_share = static_cast<double>(look_->done) / static_cast<double>(physics::kLookLines);
+}
+
+void follow_settings(std::unique_ptr<LivePicture>& picture, const scene::SharedParticles& set,
+                     const scene::SharedDevice& device, const scene::PushSettings& settings) {
+  if (picture && picture->settings_ == settings) return;
+  const std::uint32_t level = settings.level > 0 ? settings.level - 1U : set.level.level;
+  if (level == 0) return picture.reset();
+  const auto adjusted = std::make_unique<scene::SharedParticles>(set);
+  scene::adjust(settings, *adjusted);
+  auto made =
+      LivePicture::create(*adjusted, device, picture && picture->level_ == level ? picture->state_ : PictureState{});
+  AFM_CHECK(made);  // the servo has built the same particles for this device
+  picture = std::move(*made);
+  picture->settings_ = settings;
 }
 
 std::string text_of(const LookResult& look) {

@@ -198,8 +198,8 @@ TEST_F(ClusterViewTest, ShowsTheMarksOfATipWithInk) {
   EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
 }
 
-// The other machines show the numbers of each law, lever, tip, medium and tool that is chosen, as does one that comes
-// later.
+// The other machines show the numbers of each law, lever, tip, medium and tool that is chosen and the picture of
+// another level, as does one that comes later.
 TEST_F(ClusterViewTest, FollowsTheSettingsAmongParticles) {
   const auto left = node("left");
   auto right = node("right");
@@ -209,7 +209,7 @@ TEST_F(ClusterViewTest, FollowsTheSettingsAmongParticles) {
   expect_both_shown(*hand);
   press_at_master("1");
   ASSERT_TRUE(hand->says("chosen: Mica")) << hand->said();
-  for (const char* chosen : {"friction law amontons", "lever ", "tip ", "medium humid air", "tool grip"}) {
+  for (const char* chosen : {"friction law amontons", "lever ", "tip ", "medium humid air", "tool grip", "level 1"}) {
     press_at_master("Insert");
     ASSERT_TRUE(hand->says("; Delete chooses the next")) << hand->said();
     press_at_master("Delete");
@@ -218,6 +218,9 @@ TEST_F(ClusterViewTest, FollowsTheSettingsAmongParticles) {
     EXPECT_NE(hand->says_one_of({": in use", ": the tip holds what it touched"}), "") << chosen << hand->said();
     EXPECT_TRUE(all_same()) << chosen << hand->said();
   }
+  press_at_master("F5");
+  EXPECT_TRUE(hand->says("lies 0.00 nm from where the picture had it")) << hand->said();
+  EXPECT_TRUE(all_same()) << hand->said();
   right->signal(SIGTERM);
   EXPECT_EQ(right->ends(), 0) << right->said();
   right = node("right");

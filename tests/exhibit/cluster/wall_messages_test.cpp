@@ -100,7 +100,7 @@ TEST(FrameMessageTest, IsRefusedWithAnyNumberThatIsNotValid) {
 
 std::vector<std::byte> saved(const WallHistory& history) {
   return save_history(history.journal, history.cycles, history.friction, history.edits, history.scan, history.pages,
-                      history.push, history.score, history.plan, history.tiles);
+                      history.push, history.score, history.plan, history.tiles, history.known, history.picture);
 }
 
 TEST(WallHistoryTest, IsTheSameForANodeThatComesLate) {

@@ -102,26 +102,24 @@ TEST(ServoTools, ChangesNothingWhileAParticlePushesTheHand) {
   }
 }
 
-TEST(ServoTools, GripsNoIslandAndNothingAtALevel) {
-  for (const bool level : {false, true}) {
+TEST(ServoTools, GripsNoIslandAndHasNoLevelForIt) {
+  for (const scene::PushSettings& settings :
+       {scene::PushSettings{.tool = scene::PushTool::Grip}, scene::PushSettings{.level = 2}}) {
     scene::SharedModel model = test::two_particles();
-    if (level) {
-      model.particles.level.level = 1;
-    } else {
-      model.particles = test::islands_at({{0.0, 0.0}, {0.0, 600e-9}});
-    }
+    model.particles = test::islands_at({{0.0, 0.0}, {0.0, 600e-9}});
     PushingBench bench(1000.0, model);
     bench.choose(test::kMica, ScaleMode::Particles);
     bench.run(0.1);
-    bench.settings.tool = scene::PushTool::Grip;
+    bench.settings = settings;
     bench.choose(test::kMica, ScaleMode::Particles);
     bench.run(0.1);
-    EXPECT_EQ(bench.renderer.tip_push()->settings.tool, scene::PushTool::Push);
+    EXPECT_EQ(bench.renderer.tip_push()->settings, scene::PushSettings{.tool = scene::PushTool::Push});
     EXPECT_EQ(bench.state().acknowledged.selection, bench.selection);
   }
 }
 
-// Law, lever, tip and medium, one after another: each without force, with all places kept, and felt in the next push.
+// Law, lever, tip, level and medium, one after another: each without force, with all places kept, and felt in the next
+// push.
 TEST(ServoTools, ChangesEverySettingWithoutForceAndKeepsThePlaces) {
   PushingBench bench;
   const scene::ParticlePose start = bench.pose(0);
@@ -144,7 +142,7 @@ TEST(ServoTools, ChangesEverySettingWithoutForceAndKeepsThePlaces) {
   // contact larger, water makes it smaller
   for (const Change& change :
        {Change{{.law = 2}, 5.0, 20.0}, Change{{.lever = 4}, 0.5, 2.0}, Change{{.tip = 3}, 0.5, 2.0},
-        Change{{.medium = 1}, 1.5, 3.0}, Change{{.lever = 1, .medium = 2}, 0.2, 0.6}}) {
+        Change{{.level = 3}, 0.9, 1.1}, Change{{.medium = 1}, 1.5, 3.0}, Change{{.lever = 1, .medium = 2}, 0.2, 0.6}}) {
     bench.release();
     const scene::ParticlePose there = bench.pose(0);
     const std::size_t before = bench.samples.size();
@@ -170,6 +168,32 @@ TEST(ServoTools, ChangesEverySettingWithoutForceAndKeepsThePlaces) {
   while (bench.renderer.tip_push()->strokes > 0) bench.order(bench.taken_back);
   EXPECT_EQ(bench.pose(0), start);
   EXPECT_EQ(bench.renderer.refused_blocks(), 0U);
+}
+
+// The drift of level 2 begins when the level is chosen, goes on with other settings, and ends with the level.
+TEST(ServoTools, BeginsTheDriftAtTheChangeOfTheLevel) {
+  PushingBench bench;
+  // time before the choice
+  const auto choose = [&bench](const scene::PushSettings& settings) {
+    bench.settings = settings;
+    const std::int64_t before_ns = bench.now_ns;
+    bench.choose(test::kMica, ScaleMode::Particles);
+    bench.run(0.2);
+    return before_ns;
+  };
+  const auto since_ns = [&bench] { return bench.samples.back().level.since_ns; };
+  choose({});
+  EXPECT_EQ(since_ns(), 0);
+  const std::int64_t first_ns = choose({.level = 3}), begun_ns = since_ns();
+  EXPECT_GT(begun_ns, first_ns);
+  choose({.lever = 4, .level = 3});
+  EXPECT_EQ(since_ns(), begun_ns);
+  choose({.level = 2});
+  EXPECT_EQ(since_ns(), 0);
+  const std::int64_t again_ns = choose({.level = 3});
+  EXPECT_GT(since_ns(), again_ns);
+  choose({});
+  EXPECT_EQ(since_ns(), 0);
 }
 
 // A servo that takes over uses what is chosen from its first tick; what cannot be felt changes nothing.

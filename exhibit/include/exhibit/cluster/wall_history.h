@@ -23,9 +23,11 @@ struct WallHistory {
   std::vector<cluster::EditRecord> edits;  // newest edit of each edited material
   std::vector<cluster::ScanRecord> scan;   // start and changes of the current scan; empty: none is shown
   std::vector<scene::ParticlePage> pages;  // poses of the particles
+  std::vector<std::uint8_t> known;         // servo::Known, one for each pose
   scene::TipPush push;
   scene::TaskScore score;
   scene::PlannedPush plan;
+  cluster::PictureRecord picture;
   std::vector<scene::MarkTile> tiles;  // empty: no tip has left a mark
   std::uint64_t marks = 0;             // number of rows of marks that it includes
 
@@ -39,7 +41,9 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const cluster::ScanRecord> scan,
                                     std::span<const scene::ParticlePage> pages = {}, const scene::TipPush& push = {},
                                     const scene::TaskScore& score = {}, const scene::PlannedPush& plan = {},
-                                    std::span<const scene::MarkTile> tiles = {});
+                                    std::span<const scene::MarkTile> tiles = {},
+                                    std::span<const std::uint8_t> known = {},
+                                    const cluster::PictureRecord& picture = {});
 
 // Rows of the newer tiles that differ, at most so many; `before` has as many tiles, or none, which are then bare.
 std::vector<cluster::MarkRecord> changed_rows(std::span<const scene::MarkTile> before,

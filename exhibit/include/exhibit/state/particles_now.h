@@ -17,7 +17,8 @@ struct ParticlePlace;
 
 namespace afm::servo {
 struct PictureNow;
-}
+enum class Known : std::uint8_t;
+}  // namespace afm::servo
 
 namespace afm::scene {
 struct ParticleSet;
@@ -54,6 +55,9 @@ inline std::optional<std::size_t> touched(const ParticlesNow& now, std::size_t c
   const bool known = now.push.met != 0 && now.push.particle >= 0 && static_cast<std::size_t>(now.push.particle) < count;
   return known ? std::optional(static_cast<std::size_t>(now.push.particle)) : std::nullopt;
 }
+
+// How the picture knows a particle; Measured without a picture, which shows the particles themselves.
+servo::Known known_of(const ParticlesNow& now, std::size_t particle);
 
 // Load up to which a look moves no particle of the set.
 physics::Force gentle_look(const scene::ParticleSet& set);

@@ -88,6 +88,8 @@
   PHRASE(SettingLever, "setting-lever", "", kLine)                         \
   PHRASE(SettingTip, "setting-tip", "", kLine)                             \
   PHRASE(SettingMedium, "setting-medium", "", kLine)                       \
+  PHRASE(SettingLevel, "setting-level", "", kLine)                         \
+  PHRASE(SettingLevelOwn, "setting-level-own", "", kLine)                  \
   PHRASE(SettingMarked, "setting-marked", "setting value", kLine)          \
   PHRASE(SettingNow, "setting-now", "setting value", kLine)                \
   PHRASE(SettingNoOther, "setting-no-other", "setting", kLine)             \

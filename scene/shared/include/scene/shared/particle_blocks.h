@@ -225,6 +225,7 @@ struct PushSettings {
   std::uint16_t lever = 0;
   std::uint16_t tip = 0;
   std::uint16_t medium = 0;
+  std::uint16_t level = 0;
 
   bool operator==(const PushSettings&) const = default;
 };
@@ -236,6 +237,7 @@ constexpr void for_each_field(Visit&& visit, Record&... settings) {
   visit("lever", settings.lever...);
   visit("tip", settings.tip...);
   visit("medium", settings.medium...);
+  visit("level", settings.level...);
 }
 static_assert(all_fields_described<PushSettings>());
 
@@ -336,8 +338,8 @@ struct TipPush {
   std::uint64_t accounts = 0;
   std::int32_t particle = kNoParticle;  // the one with the largest normal force, or on the tip
   physics::PushState state = physics::PushState::Free;
-  std::uint16_t met = 0;            // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
-  std::uint16_t lagging = 0;        // 1: the hand was so fast that base_m is behind it
+  std::uint8_t met = 0;             // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
+  std::uint8_t lagging = 0;         // 1: the hand was so fast that base_m is behind it
   std::uint16_t strokes = 0;        // number of strokes that can be taken back
   PushSettings settings{};          // settings in use; the tool is Push or Grip, OfSet without particles
   double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast

@@ -53,7 +53,7 @@ inline constexpr std::array kMediumValues{
     PushMedium{"water", "chosen here: a fifth of that in dry air, order of magnitude", 0.2, {}}};
 
 // A setting of PushSettings.
-enum class PushSetting : std::uint8_t { Law = 0, Lever = 1, Tip = 2, Medium = 3, Tool = 4 };
+enum class PushSetting : std::uint8_t { Law = 0, Lever = 1, Tip = 2, Medium = 3, Tool = 4, Level = 5 };
 
 struct PushSettingText {
   PushSetting setting;
@@ -65,7 +65,8 @@ inline constexpr std::array kPushSettings{
     PushSettingText{PushSetting::Lever, "lever", kLeverValues.size()},
     PushSettingText{PushSetting::Tip, "tip", kTipValues.size()},
     PushSettingText{PushSetting::Medium, "medium", kMediumValues.size()},
-    PushSettingText{PushSetting::Tool, "tool", kPushTools.size()}};
+    PushSettingText{PushSetting::Tool, "tool", kPushTools.size()},
+    PushSettingText{PushSetting::Level, "level", 2 + kHighestLevel}};
 static_assert(core::has_row_for_each(kPushSettings, &PushSettingText::setting));
 
 constexpr const PushSettingText& text_of(PushSetting setting) { return kPushSettings[core::index_of(setting)]; }
@@ -87,7 +88,7 @@ PushTool own_tool(const physics::PushSetup& setup) noexcept;
 bool sticks_with(PushTool tool, const physics::PushSetup& setup, std::size_t species) noexcept;
 
 // Changes setup or particles to those with valid settings. A law, a medium and a tool leave rods and flat islands as
-// they are.
+// they are; a level leaves the setup as it is. At another level the drift starts anew.
 void adjust(const PushSettings& settings, physics::PushSetup& setup) noexcept;
 void adjust(const PushSettings& settings, SharedParticles& particles);
 

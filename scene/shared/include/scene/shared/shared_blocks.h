@@ -156,7 +156,6 @@ struct Selection {
   ScaleMode scale_mode = ScaleMode::Fit;
   std::uint32_t release = 0;  // 0 or 1
   PushSettings settings{};
-  std::uint16_t padding = 0;
 };
 
 // Other parameters for one material while the servo runs. `revision` increases by one with every edit, of any material.

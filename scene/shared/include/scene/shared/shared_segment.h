@@ -22,7 +22,7 @@ struct DrivenLever;
 namespace afm::scene {
 
 // Increase whenever the meaning of a block changes; changes of a block's size are detected automatically.
-inline constexpr std::uint32_t kSegmentVersion = 20;
+inline constexpr std::uint32_t kSegmentVersion = 21;
 
 inline constexpr std::uint32_t kSampleRingCapacity = 16384;  // 16 s at 1 kHz
 inline constexpr std::uint32_t kEventRingCapacity = 256;

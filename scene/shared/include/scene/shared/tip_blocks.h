@@ -286,7 +286,6 @@ struct TipSample {
   std::array<double, 2> guide_n{};  // force of the plan's groove on the hand, along the sample's x and y, unlimited
   LevelSample level{};              // default: level 0
   PushSettings settings{};          // as in TipPush; not in session files, whose particles are those for them
-  std::uint16_t short_padding = 0;
   std::uint32_t padding = 0;
 };
 
@@ -328,8 +327,7 @@ constexpr void for_each_input(Visit&& visit, Record&... sample) {
   visit("scan", sample.scan...);
   visit("plan", sample.plan...);
   visit("settings", sample.settings...);
-  visit("short_padding", sample.short_padding...);
-  visit("long_padding", sample.padding...);
+  visit("padding", sample.padding...);
 }
 
 template <class Visit, RecordOf<TipSample>... Record>

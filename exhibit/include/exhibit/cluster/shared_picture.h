@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "servo/live_picture.h"
+
+namespace afm::cluster {
+struct PictureRecord;
+}
+
+namespace afm::exhibit {
+
+struct ParticlesNow;
+struct WallHistory;
+
+// Picture of the particles for the other machines of a wall; level 0 if there is none.
+cluster::PictureRecord record_of(const ParticlesNow& now);
+
+// The same picture on another machine, whose set has so many particles; nothing if there is none.
+std::optional<servo::PictureNow> picture_of(const WallHistory& history, std::size_t count);
+
+}  // namespace afm::exhibit
