@@ -9,7 +9,8 @@ namespace afm::python {
 void add_errors(pybind11::module_& module);
 void add_contacts(pybind11::module_& module);  // materials, probes, contacts, laws
 void add_cycles(pybind11::module_& module);    // cycles, sweeps, the paper's tables
-void add_files(pybind11::module_& module);     // curves and images of files
+void add_files(pybind11::module_& module);     // curves of files
+void add_images(pybind11::module_& module);    // images of files
 void add_fits(pybind11::module_& module);      // analysis and fits
 void add_tapping(pybind11::module_& module);
 void add_frequency_shifts(pybind11::module_& module);

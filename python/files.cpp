@@ -14,7 +14,6 @@
 
 #include "core/printable.h"
 #include "curves/curve_series.h"
-#include "curves/image_file.h"
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/curve_state.h"
@@ -130,6 +129,7 @@ py::dict metadata_of(const Curve& curve) {
   if (data.pixel) {
     result["pixel"] = py::make_tuple(data.pixel->column, data.pixel->row);
     result["grid"] = py::make_tuple(data.pixel->grid.columns, data.pixel->grid.rows);
+    result["grid_size"] = py::make_tuple(data.pixel->grid.width_m, data.pixel->grid.height_m);
   }
   for (const auto& [key, value] : data.parameters) result[py::str(key)] = value;
   return result;
@@ -196,37 +196,8 @@ void add_curve(py::module_& module) {
              "(\"height:um force:nN\"). FileError if the file or one of its curves cannot be understood.");
 }
 
-py::dict read_image(const std::filesystem::path& path, const std::string& channel) {
-  const curves::LoadedImage loaded = value_of(long_work([path = path.string(), channel](const std::stop_token&) {
-    return curves::load_image(path, {.channel = channel});
-  }));
-  const physics::ScanImage& image = loaded.image;
-  py::dict channels, metadata;
-  for (const physics::ImageChannel& each : image.channels) {
-    py::array_t<double> values({image.rows, image.columns});
-    std::copy(each.values.begin(), each.values.end(), values.mutable_data());
-    channels[py::str(each.name)] = py::make_tuple(std::move(values), each.unit);
-  }
-  for (const auto& [key, value] : image.metadata) metadata[py::str(key)] = value;
-  py::dict result;
-  result["channels"] = channels;
-  result["chosen"] = image.channels.at(loaded.chosen).name;
-  result["width"] = image.width_m;
-  result["height"] = image.height_m;
-  result["metadata"] = metadata;
-  result["remarks"] = loaded.remarks;
-  return result;
-}
-
 }  // namespace
 
-void add_files(py::module_& module) {
-  add_curve(module);
-  module.def(
-      "read_image", &read_image, py::arg("path"), py::kw_only(), py::arg("channel") = "",
-      "An image of a microscope as a dict: \"channels\", by name an array and its SI unit, row 0 at the top;\n"
-      "\"chosen\", the name of the asked or the first height channel; \"width\" and \"height\" in m; \"metadata\"\n"
-      "and \"remarks\". FileError if it cannot be understood.");
-}
+void add_files(py::module_& module) { add_curve(module); }
 
 }  // namespace afm::python

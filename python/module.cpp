@@ -11,6 +11,7 @@ PYBIND11_MODULE(_core, module) {
   add_contacts(module);
   add_cycles(module);
   add_files(module);
+  add_images(module);
   add_fits(module);
   add_tapping(module);
   add_frequency_shifts(module);

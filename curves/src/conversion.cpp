@@ -20,10 +20,12 @@ namespace {
 
 using core::wrong_usage;
 
-// Text on the differences between the converted curve, read back, and the original; empty: none.
-std::string rounding(const RecordedCurve& original, const WritableFormat& format, const std::string& bytes) {
+// Text on the differences between the converted curve, read back, and the original; empty: none. An error if it cannot
+// be read.
+core::Result<std::string> rounding(const RecordedCurve& original, const WritableFormat& format,
+                                   const std::string& bytes) {
   const auto back = parse_curve(bytes, "the converted curve");
-  if (!back) return back.error().message;
+  if (!back) return core::failure(core::ErrorCategory::Failed, back.error().message);
   if (back->points.size() != original.points.size()) {
     return fmt::format("{} points became {}: the format needs even heights and branches of one length",
                        original.points.size(), back->points.size());
@@ -34,7 +36,7 @@ std::string rounding(const RecordedCurve& original, const WritableFormat& format
     height.si = std::max(height.si, std::abs(back->points[i].z.si - original.points[i].z.si));
     force.si = std::max(force.si, std::abs(back->points[i].force.si - original.points[i].force.si));
   }
-  if (height.si == 0.0 && force.si == 0.0) return {};
+  if (height.si == 0.0 && force.si == 0.0) return std::string();
   return fmt::format("as {}, heights differ by at most {}, forces by at most {}", format.word,
                      physics::format_quantity(height, physics::kLengthUnits, 2),
                      physics::format_quantity(force, physics::kForceUnits, 2));
@@ -109,9 +111,9 @@ core::Result<Converted> converted_curves(const std::string& file, const std::str
   result.contents = all->curves.size() == 1 ? fmt::format("1 curve of {} points", points)
                                             : fmt::format("{} curves of {} points", all->curves.size(), points);
   if (all->curves.size() == 1) {
-    if (std::string rounded = rounding(all->curves.front(), *format, result.bytes); !rounded.empty()) {
-      result.remarks.push_back(std::move(rounded));
-    }
+    auto rounded = rounding(all->curves.front(), *format, result.bytes);
+    if (!rounded) return tl::unexpected(rounded.error());
+    if (!rounded->empty()) result.remarks.push_back(std::move(*rounded));
   }
   return result;
 }

@@ -40,6 +40,14 @@ std::size_t flips_of(const physics::ScanLine& line, const physics::TappingDetect
          physics::changes_of_state(line.retrace.phase_deg, free_deg);
 }
 
+// The contact whose tip has grown by wear.
+core::Result<curves::ContactSetup> worn_contact(curves::ContactOptions options, double growth_m) {
+  auto setup = contact_of(options);
+  if (!setup || growth_m <= 0.0) return setup;
+  options.si_values["tip-radius"] = setup->material.contact.tip_radius.si + growth_m;
+  return contact_of(options);
+}
+
 std::string metres(const std::optional<double>& si) { return si ? fmt::format("{} m", *si) : std::string(); }
 
 }  // namespace
@@ -71,8 +79,7 @@ core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
   InstrumentSettings settings;
   settings.contact.assets_dir = assets_dir_;
   settings.contact.material = "mica";
-  settings_ = {};
-  surface_radius_m_ = 0.0;
+  if (growth_m_ > 0.0) surface_radius_m_ = 0.0;  // its surface is that of a worn tip
   at_ = {.z_m = kStartAboveM};
   touching_ = second_apex_ = false;
   if (const auto built = build(settings, 0.0); !built) return built;
@@ -96,19 +103,15 @@ core::Result<void> SimulatedInstrument::change(const InstrumentSettings& setting
 
 // Everything that follows from settings and the worn tip; on failure nothing has changed.
 core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings, double growth_m) {
-  curves::ContactOptions options(settings.contact);
-  auto setup = contact_of(options);
+  const bool same_contact = surface_ != nullptr && settings.contact.material == settings_.contact.material &&
+                            settings.contact.model == settings_.contact.model &&
+                            settings.contact.si_values == settings_.contact.si_values;
+  const bool same_setup = same_contact && growth_m == growth_m_;
+  auto setup = same_setup ? core::Result<curves::ContactSetup>(setup_) : worn_contact(settings.contact, growth_m);
   if (!setup) return tl::unexpected(setup.error());
-  if (growth_m > 0.0) {
-    options.si_values["tip-radius"] = setup->material.contact.tip_radius.si + growth_m;
-    setup = contact_of(options);
-    if (!setup) return tl::unexpected(setup.error());
-  }
   const double radius_m = setup->material.contact.tip_radius.si;
-  const bool same =
-      settings.contact.material == settings_.contact.material && settings.contact.model == settings_.contact.model &&
-      settings.contact.si_values == settings_.contact.si_values && settings.tip.kind == settings_.tip.kind &&
-      settings.tip.half_angle_rad == settings_.tip.half_angle_rad;
+  const bool same = same_contact && settings.tip.kind == settings_.tip.kind &&
+                    settings.tip.half_angle_rad == settings_.tip.half_angle_rad;
   if (!same || std::abs(radius_m - surface_radius_m_) > kGrowthThatIsSeen * surface_radius_m_) {
     physics::TipShape tip(settings.tip);
     tip.radius = physics::Length(radius_m);
@@ -119,7 +122,7 @@ core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings
   }
   settings_ = settings;
   setup_ = std::move(*setup);
-  usual_path_.reset();
+  if (!same_setup) usual_path_.reset();
   base_.reset();
   growth_m_ = growth_m;
   if (!at_.engaged && touching_) follow_base();

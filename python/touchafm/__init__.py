@@ -48,6 +48,7 @@ from ._core import (
     study,
     sweep,
     tapping,
+    write_image,
 )
 
 __all__ = [
@@ -87,6 +88,7 @@ __all__ = [
     "study",
     "sweep",
     "tapping",
+    "write_image",
 ]
 
 for _each in __all__:

@@ -453,6 +453,14 @@ def read(
     columns: Optional[str] = ...,
 ) -> list[Curve]: ...
 def read_image(path: _Path, *, channel: str = ...) -> dict[str, Any]: ...
+def write_image(
+    path: _Path,
+    channels: Mapping[str, tuple[ArrayLike, str]],
+    *,
+    width: float,
+    height: float,
+    metadata: Mapping[str, str] = ...,
+) -> None: ...
 def analyse(curve: Curve, *, contact_point: Optional[str] = ...) -> Analysis: ...
 def fit(
     curve: Union[Curve, Analysis],

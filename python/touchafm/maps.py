@@ -4,6 +4,7 @@
 >>> import touchafm.maps
 >>> found = touchafm.maps.fit(touchafm.read("cell.h5"), model="paraboloid", tip_radius=5e-6)
 >>> found.E[0]  # the top row, Pa
+>>> touchafm.write_image("cell.gwy", {"Modulus": (found.E, "Pa")}, width=found.width, height=found.height)
 
 The numbers are those of touchafm.fit() for each curve alone, and of the maps that touchafm analyse --fit writes.
 """
@@ -33,6 +34,8 @@ class FitMap(typing.NamedTuple):
     flag: NDArray[np.str_]  #: whether E can be trusted, in a word; empty without a fit
     fits: list[Optional[Fit]]  #: in the order of the curves; None where a curve cannot be fitted
     reasons: dict[int, str]  #: why, by the number of the curve
+    width: float  #: width of the map, m; touchafm.write_image() takes it
+    height: float  #: height of the map, m
 
 
 class _Found(typing.NamedTuple):
@@ -73,6 +76,7 @@ def fit(curves: typing.Sequence[Curve], *, threads: Optional[int] = None, **sett
     if not curves:
         raise ValueError("there is no curve")
     shape, places = _places(curves)
+    width, height = curves[0].metadata["grid_size"]
     pool = ThreadPoolExecutor(threads or os.cpu_count())
     try:
         work = [pool.submit(_found, curve, settings) for curve in curves]
@@ -102,4 +106,6 @@ def fit(curves: typing.Sequence[Curve], *, threads: Optional[int] = None, **sett
         flag=flag,
         fits=[each.fit for each in found],
         reasons={number: each.reason for number, each in enumerate(found) if each.reason},
+        width=width,
+        height=height,
     )

@@ -60,6 +60,21 @@ ConversionOptions channel(const std::string& name) {
   return options;
 }
 
+void expect_same_place(const CurveMetadata& a, const CurveMetadata& b) {
+  ASSERT_EQ(a.position.has_value(), b.position.has_value());
+  ASSERT_EQ(a.pixel.has_value(), b.pixel.has_value());
+  if (a.position) {
+    EXPECT_EQ(a.position->x_m, b.position->x_m);
+    EXPECT_EQ(a.position->y_m, b.position->y_m);
+  }
+  if (!a.pixel) return;
+  EXPECT_EQ(a.pixel->column, b.pixel->column);
+  EXPECT_EQ(a.pixel->row, b.pixel->row);
+  EXPECT_EQ(a.pixel->grid.columns, b.pixel->grid.columns);
+  EXPECT_EQ(a.pixel->grid.height_m, b.pixel->grid.height_m);
+  EXPECT_EQ(a.pixel->grid.center_y_m, b.pixel->grid.center_y_m);
+}
+
 void expect_same(const RecordedCurve& a, const RecordedCurve& b) {
   ASSERT_EQ(a.points.size(), b.points.size());
   for (std::size_t i = 0; i < a.points.size(); ++i) {
@@ -77,7 +92,7 @@ void expect_same(const RecordedCurve& a, const RecordedCurve& b) {
   EXPECT_EQ(a.metadata.date, b.metadata.date);
   EXPECT_EQ(a.metadata.curve_id, b.metadata.curve_id);
   EXPECT_EQ(a.metadata.parameters, b.metadata.parameters);
-  EXPECT_EQ(a.metadata.pixel.has_value(), b.metadata.pixel.has_value());
+  expect_same_place(a.metadata, b.metadata);
 }
 
 constexpr std::array kCurveNames{"dwell.ibw",          "rising.tab", "bom.tab",
@@ -129,6 +144,10 @@ TEST(Conversion, WritesAllCurvesOfAMapOrOne) {
   const auto one = parse_curve(made(map, "new.tab", only(3)).bytes, "new.tab");
   ASSERT_TRUE(one.has_value());
   expect_same(*load_curve(map, curve_of(3)), *one);
+  const auto workshop = parse_curve(made(map, "new.csv", only(3)).bytes, "new.csv");
+  ASSERT_TRUE(workshop.has_value()) << workshop.error().message;
+  expect_same_place(load_curve(map, curve_of(3))->metadata, workshop->metadata);
+  EXPECT_EQ(workshop->metadata.pixel->column, test::map_column(3));
   EXPECT_THAT(refusal(map, "new.tab", only(6)), HasSubstr("it has no curve 6; it has 6, counted from 0"));
 }
 

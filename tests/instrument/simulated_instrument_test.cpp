@@ -316,6 +316,29 @@ TEST(SimulatedInstrument, RepeatsItselfForItsSeedAndNoOther) {
   EXPECT_EQ(reset.position().time_s, 0.0);
 }
 
+// A worn tip and other settings of the contact leave nothing for the next start
+TEST(SimulatedInstrument, IsAsNewAfterAResetWhateverItHadBefore) {
+  const auto image = [](SimulatedInstrument& instrument) {
+    instrument.approach(1e-6);
+    set(instrument, [](InstrumentSettings& settings) { settings.pixels = 16; });
+    return heights_of(instrument, 4);
+  };
+  SimulatedInstrument fresh = instrument_with(5);
+  const std::vector<double> expected = image(fresh);
+  for (const bool worn : {false, true}) {
+    SimulatedInstrument used = instrument_with(9);
+    set(used, [worn](InstrumentSettings& settings) {
+      if (worn) settings.faults = {.blunting_force_n = 1e-9, .blunting_m_per_n = 2.0};
+      if (!worn) settings.contact.si_values["tip-radius"] = 20e-9;
+    });
+    ASSERT_TRUE(used.curve({.z_from_m = 50e-9, .z_to_m = -50e-9, .points = 50}));
+    EXPECT_EQ(used.truth().tip_growth_m > 0.0, worn);
+    EXPECT_NE(image(used), expected) << worn;
+    ASSERT_TRUE(used.reset(5));
+    EXPECT_EQ(image(used), expected) << worn;
+  }
+}
+
 TEST(SimulatedInstrument, KeepsItsSettingsWhenAChangeIsRefused) {
   SimulatedInstrument instrument = instrument_with();
   InstrumentSettings settings(instrument.settings());

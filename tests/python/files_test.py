@@ -74,6 +74,43 @@ class Reading(Files):
         self.assertAlmostEqual(image["width"], 40e-9)
 
 
+class Images(Files):
+    CHANNELS = {"Modulus": (np.array([[1e3, np.nan, 3e3], [4e3, 5e3, 6e3]]), "Pa"), "A name, \u00b5": ([[1, 2, 3], [4, 5, 6]], "")}
+
+    def test_are_read_as_they_were_written(self):
+        touchafm.write_image(self.folder / "map.gwy", self.CHANNELS, width=3e-6, height=2e-6, metadata={"Tip": "R = 5 um"})
+        image = touchafm.read_image(self.folder / "map.gwy", channel="Modulus")
+        self.assertEqual(list(image["channels"]), list(self.CHANNELS))
+        for name, (values, unit) in self.CHANNELS.items():
+            np.testing.assert_array_equal(image["channels"][name][0], values)
+            self.assertEqual(image["channels"][name][1], unit)
+        self.assertEqual((image["width"], image["height"], image["metadata"]["Tip"]), (3e-6, 2e-6, "R = 5 um"))
+        self.assertEqual(image["metadata"]["Software"], f"TouchAFM {touchafm.__version__}")
+        touchafm.write_image(self.folder / "map.gsf", {"Modulus": self.CHANNELS["Modulus"]}, width=3e-6, height=2e-6)
+        values, unit = touchafm.read_image(self.folder / "map.gsf", channel="Modulus")["channels"]["Modulus"]
+        np.testing.assert_array_equal(values, self.CHANNELS["Modulus"][0])
+        self.assertEqual(unit, "Pa")
+
+    def test_are_refused_where_no_file_could_hold_them(self):
+        heights = np.zeros((2, 3))
+        for channels, words in (({}, "give one at least"), ({"Height": heights}, 'give an array and its SI unit, such as'),
+                                ({"Height": (heights[0], "m")}, "two dimensions"), ({"Height": (heights, "m\0")}, "zero byte"),
+                                ({"Height": (heights + np.inf, "m")}, "beyond 1e\\+100; mark"), ({"Height": (None, "m")}, "array"),
+                                ({"a": (heights, "m"), "b": (heights.T, "m")}, r'channels\["b"\]: it has 2 x 3 pixels, those before 3 x 2')):
+            with self.subTest(words), self.assertRaisesRegex((ValueError, TypeError), words):
+                touchafm.write_image(self.folder / "no.gwy", channels, width=1e-6, height=1e-6)
+        good = {"Height": (heights, "m")}
+        for path, given, words in (("no.png", {}, ".gwy or .gsf"), ("no.gwy", {"width": -1.0}, "width: -1 m is not positive"),
+                                   ("no.gwy", {"height": float("nan")}, "height: nan m")):
+            with self.assertRaisesRegex(ValueError, words):
+                touchafm.write_image(self.folder / path, good, **{"width": 1e-6, "height": 1e-6, **given})
+        with self.assertRaisesRegex(ValueError, "holds one channel, not 2"):
+            touchafm.write_image(self.folder / "no.gsf", self.CHANNELS, width=1e-6, height=1e-6)
+        with self.assertRaises(touchafm.FileError):
+            touchafm.write_image(self.folder / "nowhere" / "no.gwy", good, width=1e-6, height=1e-6)
+        self.assertEqual(list(self.folder.glob("no.*")), [])
+
+
 class Curves(Files):
     def test_are_written_and_read_back(self):
         curve = touchafm.generate(points=100, **GEL)[0][0]

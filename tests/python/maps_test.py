@@ -50,6 +50,8 @@ class Maps(unittest.TestCase):
         channels = touchafm.read_image(self.folder / "out" / "cells.gwy")["channels"]
         found = touchafm.maps.fit(touchafm.read(self.folder / "cells.h5"), **FIT)
         np.testing.assert_array_equal(found.E, channels["Modulus"][0])
+        of_command = touchafm.read_image(self.folder / "out" / "cells.gwy")
+        self.assertEqual((found.width, found.height), (of_command["width"], of_command["height"]))
         np.testing.assert_array_equal(found.contact_point, channels["Contact height"][0])
         np.testing.assert_array_equal(found.flag == "trusted", channels["Trust"][0] == channels["Trust"][0].max())
 

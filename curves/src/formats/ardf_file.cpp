@@ -168,19 +168,24 @@ void ArdfCurves::find_line(std::uint64_t line, std::uint64_t first, Walk& walk) 
   }
 }
 
+bool ArdfCurves::is_cut(const Set& set) const {
+  try {
+    for (std::size_t i = 0; i < channels_.size(); ++i) array_of(set, i);
+    return false;
+  } catch (const CutShort&) {
+    return true;
+  } catch (const CurveError&) {
+    return false;  // a fault of this curve alone
+  }
+}
+
 // Where a file ends early, the curve before its end is not whole.
 void ArdfCurves::leave_out_cut_set() {
   const auto last =
       std::max_element(sets_.begin(), sets_.end(), [](const Set& a, const Set& b) { return a.offset < b.offset; });
-  if (last == sets_.end()) return;
-  try {
-    for (std::size_t i = 0; i < channels_.size(); ++i) array_of(*last, i);
-  } catch (const CutShort&) {
-    is_cut_ = true;
-    sets_.erase(last);
-  } catch (const CurveError&) {
-    // its own fault, which it has when it is read
-  }
+  if (last == sets_.end() || !is_cut(*last)) return;
+  is_cut_ = true;
+  sets_.erase(last);
 }
 
 // The index of a channel; that behind the last without it.

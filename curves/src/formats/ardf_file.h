@@ -50,6 +50,7 @@ class ArdfCurves {
   std::uint64_t read_channels(std::uint64_t offset);
   void find_sets(const ArdfTable& lines);
   void find_line(std::uint64_t line, std::uint64_t first, Walk& walk);
+  bool is_cut(const Set& set) const;
   void leave_out_cut_set();
   std::size_t channel(std::string_view name) const;
   Array array_of(const Set& set, std::size_t channel) const;

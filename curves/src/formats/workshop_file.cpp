@@ -98,8 +98,11 @@ std::string own_lines(const RecordedCurve& curve) {
   return fmt::to_string(text);
 }
 
-// Reads a line of own_lines().
-void read_own_line(std::string_view line, CurveMetadata& metadata) {
+// Beginnings of the keys whose values are numbers.
+constexpr std::array<std::string_view, 4> kOwnNumbers{"setpoint", "speed ", "position ", "grid "};
+
+// Reads a line of own_lines(): a parameter, or a key of afmformats for `entries`.
+void read_own_line(std::string_view line, CurveMetadata& metadata, nlohmann::json& entries) {
   if (line.starts_with(kParameterLine)) {
     std::string parameter(line.substr(kParameterLine.size()));
     std::replace(parameter.begin(), parameter.end(), '\t', ' ');
@@ -111,10 +114,10 @@ void read_own_line(std::string_view line, CurveMetadata& metadata) {
   if (colon == std::string_view::npos) return;
   const std::string key(line.substr(0, colon)), value(line.substr(colon + 2));
   const auto number = number_of(value);
-  const bool is_text = !number || (key != "setpoint" && !key.starts_with("speed "));
-  nlohmann::json entry = nlohmann::json::object();
-  entry[key] = is_text ? nlohmann::json(value) : nlohmann::json(*number);
-  read_afmformats_metadata(entry, metadata);
+  const auto begins_key = [&key](std::string_view beginning) { return key.starts_with(beginning); };
+  // a name may look like a number
+  const bool is_number = number && std::any_of(kOwnNumbers.begin(), kOwnNumbers.end(), begins_key);
+  entries[key] = is_number ? nlohmann::json(*number) : nlohmann::json(value);
 }
 
 // AFM Workshop writes 1 for a missing calibration, so a true 1 is written slightly larger.
@@ -131,6 +134,7 @@ struct Header {
 Header read_header(Lines& lines) {
   Header header;
   header.metadata.instrument = header.metadata.software = "AFM Workshop";
+  nlohmann::json entries = nlohmann::json::object();
   for (std::string_view line; lines.next(line);) {
     const auto value_of = [&](std::string_view key) {
       return line.starts_with(key) ? trimmed(line.substr(key.size())) : std::string_view();
@@ -149,12 +153,14 @@ Header read_header(Lines& lines) {
     if (const auto gain = calibration("Light Lever Gain, mV/nm:")) header.metadata.sensitivity_m_per_v = 1e-6 / *gain;
     if (const auto k = calibration("Force Constant, nN/nm:")) header.metadata.spring_constant = physics::Stiffness(*k);
     if (line.starts_with(kOwnLine)) {
-      read_own_line(line, header.metadata);
+      read_own_line(line, header.metadata, entries);
       continue;
     }
     split(line, ',', header.columns);
     for (std::string_view& name : header.columns) name = trimmed(name);
-    if (std::find(header.columns.begin(), header.columns.end(), kFirstColumn) != header.columns.end()) return header;
+    if (std::find(header.columns.begin(), header.columns.end(), kFirstColumn) == header.columns.end()) continue;
+    read_afmformats_metadata(entries, header.metadata);
+    return header;
   }
   throw CurveError(fmt::format("it has no line of column names, one of which is \"{}\"", kFirstColumn));
 }
