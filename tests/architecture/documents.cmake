@@ -55,7 +55,7 @@ foreach(document ${documents})
       string(APPEND faults "${document}: ${test}: there is no such test\n")
     endif()
   endforeach()
-  string(REGEX MATCHALL "`(app|assets|cluster|cmake|core|curves|docs|exhibit|fits|haptics|imaging|input|instrument|physics|render|scene|scripts|servo|shaders|study)/[A-Za-z0-9_/.*-]+`"
+  string(REGEX MATCHALL "`(app|assets|cluster|cmake|core|curves|docs|exhibit|fits|haptics|imaging|input|instrument|physics|python|render|scene|scripts|servo|shaders|study)/[A-Za-z0-9_/.*-]+`"
          paths "${text}")
   foreach(path ${paths})
     math(EXPR named "${named} + 1")
