@@ -27,7 +27,8 @@ struct Turned {
 class HarmonicResponse {
  public:
   explicit HarmonicResponse(double spring_constant, double ratio = 1.0) noexcept : k_(spring_constant) {
-    constexpr double kPi = std::numbers::pi, kNearest = 1e-5;  // where both differ by less than their rounding
+    constexpr double kPi = std::numbers::pi;
+    constexpr double kNearest = 1e-5;  // share of the resonance within which both forms differ by less than rounding
     resonant_ = std::abs(ratio - 1.0) < kNearest;
     if (resonant_) return;
     a_ = 1.0 / ratio;
