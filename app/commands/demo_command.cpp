@@ -261,8 +261,9 @@ void add_sample_options(OptionList& command, DemoOptions& options, const Command
   command
       .add_parsed_option(
           "--model", [&options](const std::string& text) { return read_model(text, options); },
-          "law of force: auto (by the Tabor parameter), paper, hao, hertz, dmt, jkr, maugis, lj, or dynamic- before a "
-          "contact law for a lever with inertia; in tapping auto, hertz, dmt, jkr or maugis, default: auto")
+          fmt::format("law of force; auto chooses it by the contact's Tabor parameter, dynamic- is for a lever with "
+                      "inertia; one of {}; in tapping one of {}, default: auto",
+                      curves::known_models(curves::ModelUse::Device), curves::known_models(curves::ModelUse::Tapped)))
       .show_default("paper")
       .type_name("MODEL");
   command

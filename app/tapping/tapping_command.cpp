@@ -129,7 +129,8 @@ void add_tapped_view_options(OptionList& command, curves::TappedHand& hand) {
   add_felt_drive(command, hand);
   command
       .add_option("--model", hand.model,
-                  "tapping: law of force, auto (by the Tabor parameter), hertz, dmt, jkr, maugis")
+                  "tapping: law of force; auto chooses it by the contact's Tabor parameter; one of " +
+                      curves::known_models(curves::ModelUse::Tapped))
       .type_name("NAME")
       .show_default();
   command

@@ -171,7 +171,11 @@ std::optional<ModelName> ModelName::parse(std::string_view text) {
 
 std::string known_models(ModelUse use) {
   std::string text = use == ModelUse::Curve ? "auto, paper-rule" : "auto";
-  for (const Law law : physics::laws_with(&LawTraits::computed)) text += fmt::format(", {}", physics::name_of(law));
+  for (const Law law : physics::laws_with(&LawTraits::computed)) {
+    if (use == ModelUse::Tapped && !physics::has_averaged_swings(law)) continue;
+    text += fmt::format(", {}", physics::name_of(law));
+  }
+  if (use == ModelUse::Tapped) return text;
   for (const Law law : physics::laws_with(&LawTraits::dynamic)) {
     text += fmt::format(", {}{}", kDynamicPrefix, physics::name_of(law));
   }

@@ -27,8 +27,8 @@ struct ModelName {
   static std::optional<ModelName> parse(std::string_view text);
 };
 
-// paper-rule must never drive a device.
-enum class ModelUse { Curve, Device };
+// paper-rule must never drive a device. Tapped: laws on which a swing can be averaged (physics::has_averaged_swings()).
+enum class ModelUse { Curve, Device, Tapped };
 
 // "auto, paper-rule, paper, ...", for help and messages.
 std::string known_models(ModelUse use);

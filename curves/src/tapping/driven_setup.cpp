@@ -21,10 +21,9 @@ core::Result<ContactOptions> driven_contact(const TappingChoice& choice, Contact
   const bool automatic = contact.model == "auto";
   const auto law = physics::law_of(contact.model);
   if (contact.model == "paper-rule" || (law && !physics::has_dynamics(*law))) {
-    return wrong_usage(
-        fmt::format("--mode {} needs the force as a function of the tip's height, which model {} does not give; choose "
-                    "auto, hertz, dmt, jkr or maugis",
-                    choice.mode, contact.model));
+    return wrong_usage(fmt::format(
+        "--mode {} needs the force as a function of the tip's height, which model {} does not give; choose {}",
+        choice.mode, contact.model, known_models(ModelUse::Tapped)));
   }
   if (!automatic && !law && ModelName::parse(contact.model)) {
     return wrong_usage(fmt::format("--mode {} swings the lever by itself; write --model {}", choice.mode,
@@ -78,7 +77,7 @@ core::Result<ContactSetup> tapped_setup(const scene::MaterialEntry& entry, const
   if (!checked) return tl::unexpected(checked.error());
   const auto model = ModelName::parse(hand.model);
   if (!model)
-    return wrong_usage(fmt::format("--model {} is unknown; choose auto, hertz, dmt, jkr or maugis", hand.model));
+    return wrong_usage(fmt::format("--model {} is unknown; choose {}", hand.model, known_models(ModelUse::Tapped)));
   ContactSetup setup{entry, {}, *model};
   setup.model.driven = true;
   for (const auto& [option, text] : hand.values) {

@@ -157,6 +157,11 @@ constexpr const LawTraits& traits_of(Law law) { return kLawTable.at(static_cast<
 
 constexpr bool has_dynamics(Law law) { return traits_of(law).dynamic; }
 
+// Returns whether a tapping lever's swing can be averaged on the law: that of bodies that give way.
+constexpr bool has_averaged_swings(Law law) {
+  return has_dynamics(law) && traits_of(law).modulus != ModulusUse::Unused;
+}
+
 // The laws with a trait, in the order of the table: laws_with(&LawTraits::computed).
 std::vector<Law> laws_with(bool LawTraits::* trait);
 

@@ -87,10 +87,13 @@ TapSurface::TapSurface(Law law, const ContactParameters& contact, const LawOptio
       grips_(fixed_grips_tables(law, contact, options)),
       law_(force_law(law, contact, options)),
       viscous_si_(viscosity.si * std::sqrt(contact.tip_radius.si)) {
-  if (traits_of(law).modulus == ModulusUse::Unused) {
+  if (!has_averaged_swings(law)) {
+    std::string others;
+    for (const Law other : laws_with(&LawTraits::dynamic)) {
+      if (has_averaged_swings(other)) others += (others.empty() ? "" : ", ") + std::string(name_of(other));
+    }
     throw std::invalid_argument("the law " + std::string(name_of(law)) +
-                                " is that of rigid bodies, on which no swing can be averaged: take one of hertz, dmt, "
-                                "jkr, maugis");
+                                " is that of rigid bodies, on which no swing can be averaged: take one of " + others);
   }
   if (!(viscosity.si >= 0.0 && viscosity.si <= 1e6)) {
     throw UnphysicalValue("viscosity", "the viscosity is not within 0 to 1e6 Pa*s");

@@ -36,6 +36,15 @@ curves::TappingChoice tapping() {
   return choice;
 }
 
+TEST(TappedModels, AreTheLawsWhoseSwingsCanBeAveraged) {
+  EXPECT_EQ(curves::known_models(curves::ModelUse::Tapped), "auto, hertz, dmt, jkr, maugis");
+  for (const char* model : {"paper-rule", "hao"}) {
+    const auto refused = tapping_text(tapping(), tapped(model), {}, "json");
+    ASSERT_FALSE(refused) << model;
+    EXPECT_THAT(refused.error().message, HasSubstr("choose auto, hertz, dmt, jkr, maugis")) << model;
+  }
+}
+
 nlohmann::json json_of(const curves::TappingChoice& choice, const curves::ContactOptions& contact = tapped()) {
   const auto text = tapping_text(choice, contact, {}, "json");
   return text ? nlohmann::json::parse(*text) : nlohmann::json(text.error().message);
