@@ -17,6 +17,7 @@
 namespace afm::curves {
 namespace curve_files_test {
 
+using testing::AnyOf;
 using testing::HasSubstr;
 
 std::string error_of(std::string_view bytes, const CurveReading& reading = {}) {
@@ -122,6 +123,23 @@ TEST(CurveTexts, AreReadWithOtherLineEnds) {
   std::string bytes = *curve_bytes(CurveFormat::Tab, adhesive_curve());
   bytes.pop_back();
   EXPECT_THAT(error_of(bytes), HasSubstr("its last line has no end, and may have lost digits"));
+}
+
+TEST(CurveTexts, SayThatTheyAreCutInTheirTable) {
+  for (const CurveFormat format : {CurveFormat::Tab, CurveFormat::AfmWorkshop}) {
+    const std::string bytes = *curve_bytes(format, adhesive_curve());
+    for (std::size_t size = bytes.size() - 150; size < bytes.size() - 2; ++size) {
+      const std::string cut = bytes.substr(0, size);
+      if (format == CurveFormat::AfmWorkshop && (cut.ends_with('\r') || cut.ends_with('\n')))
+        continue;  // a shorter curve
+      const auto read = parse_curve(cut, "cut");
+      std::string said = read ? "" : read.error().message;
+      if (read) {
+        for (const std::string& remark : read->metadata.remarks) said += remark;
+      }
+      EXPECT_THAT(said, AnyOf(HasSubstr("it is cut short: "), HasSubstr("its last line has no end"))) << size;
+    }
+  }
 }
 
 TEST(CurveTexts, AreNamedWithTheirNuls) {

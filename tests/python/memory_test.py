@@ -55,7 +55,7 @@ class Memory(unittest.TestCase):
         cls.file, cls.study = os.path.join(folder.name, "gel.tab"), os.path.join(folder.name, "class")
         cls.curve = touchafm.generate(points=100, **GEL)[0][0]
         cls.curve.write(cls.file, format="tab")
-        cls.image = os.path.join(folder.name, "mica.gwy")
+        cls.image, cls.written = os.path.join(folder.name, "mica.gwy"), os.path.join(folder.name, "zero.gwy")
         touchafm.scan(MICA, pixels=8).write(cls.image)
         write_study(cls.study)
 
@@ -127,6 +127,7 @@ class Memory(unittest.TestCase):
         self.expect_no_growth({
             "read": (2_000, lambda: touchafm.read(self.file)[0].force),
             "read_image": (300, lambda: touchafm.read_image(self.image)),
+            "write_image": (2_000, lambda: touchafm.write_image(self.written, {"Height": (np.zeros((4, 4)), "m")}, width=1e-6, height=1e-6)),
             "session": (300, session),
             "study": (60, lambda: (touchafm.study(self.study).trials, touchafm.study(self.study).as_dict())),
             "a file that is not there": (5_000, lambda: refused(lambda: touchafm.read("/nowhere.tab"))),

@@ -16,9 +16,15 @@ bool Lines::next(std::string_view& line) {
   if (rest_.empty()) return false;
   const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
   line = rest_.substr(0, end);
+  open_ = end == rest_.size();
   rest_.remove_prefix(rest_.substr(end).starts_with("\r\n") ? end + 2 : std::min(end + 1, rest_.size()));
   ++number_;
   return true;
+}
+
+void refuse_fields(const Lines& lines, std::size_t fields, std::size_t of_heading) {
+  if (lines.is_open()) throw CutShort(fmt::format("its last line has {} of {} fields", fields, of_heading));
+  throw CurveError(fmt::format("line {} has {} fields, the heading {}", lines.number(), fields, of_heading));
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -56,6 +62,8 @@ double number_in(std::string_view field, std::string_view column, const Lines& l
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+    if (lines.is_open())
+      throw CutShort(fmt::format("its last line has \"{}\" as {}", core::printable_line(field), column));
     const std::string place = lines.number() == 0 ? std::string() : fmt::format("line {}: ", lines.number());
     if (has_decimal_comma(field)) throw CurveError(place + decimal_comma_in(column, field));
     throw CurveError(

@@ -15,11 +15,17 @@ class Lines {
 
   bool next(std::string_view& line);
   std::size_t number() const { return number_; }  // current line, from 1
+  // True if the current line is the last, and has no line end: a file that was cut ends so.
+  bool is_open() const { return open_; }
 
  private:
   std::string_view rest_;
   std::size_t number_ = 0;
+  bool open_ = false;
 };
+
+// Throws CurveError for a line with another number of fields than the heading: CutShort, if it is open.
+[[noreturn]] void refuse_fields(const Lines& lines, std::size_t fields, std::size_t of_heading);
 
 std::string_view trimmed(std::string_view text);
 

@@ -128,8 +128,7 @@ RecordedCurve read_tab(std::string_view bytes) {
     if (trimmed(line).empty() || line.starts_with('#')) continue;
     split(line, '\t', fields);
     if (fields.size() <= last_used || fields.size() > names.size()) {
-      throw CurveError(
-          fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
+      refuse_fields(lines, fields.size(), names.size());
     }
     if (curve.points.size() == kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     curve.points.push_back({physics::Length(number_in(fields[height], "height", lines)),

@@ -56,12 +56,10 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
     split(line, ',', fields);
-    if (fields.size() != names.size()) {
-      throw CurveError(
-          fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), names.size()));
-    }
+    if (fields.size() != names.size()) refuse_fields(lines, fields.size(), names.size());
     if (fields[branch].empty()) continue;  // a session's way to the cycle, or back
     if (fields[branch] != "approach" && fields[branch] != "retract") {
+      if (lines.is_open()) throw CutShort("its last line is not whole");
       throw CurveError(fmt::format("line {}: branch is \"{}\", neither approach nor retract", lines.number(),
                                    fields[branch].substr(0, 40)));
     }

@@ -271,10 +271,7 @@ RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading)
   for (std::string_view line; lines.next(line);) {
     if (trimmed(line).empty()) continue;
     split(line, ',', fields);
-    if (fields.size() != header.columns.size()) {
-      throw CurveError(
-          fmt::format("line {} has {} fields, the heading {}", lines.number(), fields.size(), header.columns.size()));
-    }
+    if (fields.size() != header.columns.size()) refuse_fields(lines, fields.size(), header.columns.size());
     if (2 * row >= kMostCurvePoints) throw CurveError("it has more points than a curve may have");
     const auto add_point = [&](const Columns& columns, physics::Branch branch, std::vector<physics::CurvePoint>& to) {
       // the shorter branch has empty fields behind its end
@@ -292,6 +289,7 @@ RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading)
     ++row;
   }
   curve.points.insert(curve.points.end(), retract.begin(), retract.end());
+  if (lines.is_open()) curve.metadata.remarks.emplace_back("its last line has no end, and may have lost digits");
   return curve;
 }
 

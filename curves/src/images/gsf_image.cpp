@@ -50,7 +50,7 @@ bool set_field(std::string_view name, std::string_view value, const Lines& lines
 
 ImagePages read_gsf(std::string_view bytes) {
   const std::size_t end = bytes.substr(0, kMostGsfHeaderBytes).find('\0');
-  if (end == std::string_view::npos) throw CurveError("the text at its beginning has no end");
+  if (end == std::string_view::npos) throw CutShort("the text at its beginning has no end");
   GsfHeader header;
   ImagePages found;
   std::string_view line;

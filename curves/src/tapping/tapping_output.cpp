@@ -25,6 +25,10 @@ constexpr std::string_view kShiftConvention = "resonance with the sample minus r
 constexpr std::string_view kForceConvention = "on the tip, positive away from the sample";
 constexpr std::string_view kVirialConvention =
     "mean of force times deflection of the first harmonic: positive where the sample attracts on balance";
+constexpr std::string_view kLossConvention =
+    "energy lost in the sample per period; direct integration is off by up to 1e-4 k A0^2, so that without a loss it "
+    "may "
+    "be a little below zero";
 constexpr std::string_view kHeightConvention =
     "z: the tip of the unbent lever, along the sample's outward normal from its undeformed surface";
 
@@ -35,7 +39,8 @@ const char* name_of_method(physics::TapMethod method) {
   return method == physics::TapMethod::Averaged ? "averaged" : "direct";
 }
 const char* finder_of(const TapStateRow& row) { return row.swing ? "direct integration" : "averaging"; }
-const char* name_of_state(const physics::SwingAverages& averages) {
+const char* name_of_state(const physics::SwingAverages& averages, bool repeats = true) {
+  if (!repeats) return "restless";
   return averages.virial > physics::Energy() ? "attractive" : "repulsive";
 }
 
@@ -66,6 +71,7 @@ json conventions_json(bool tapping) {
   }
   result["force"] = kForceConvention;
   result["virial"] = kVirialConvention;
+  if (tapping) result["energy_lost"] = kLossConvention;
   result["height"] = kHeightConvention;
   return result;
 }
@@ -74,8 +80,9 @@ std::string conventions_header(bool tapping) {
   std::string text = fmt::format("# amplitude: {}\n", kAmplitudeConvention);
   text += tapping ? fmt::format("# phase: {}\n", kPhaseConvention)
                   : fmt::format("# frequency shift: {}\n", kShiftConvention);
-  return text + fmt::format("# force: {}\n# virial: {}\n# heights: {}\n", kForceConvention, kVirialConvention,
-                            kHeightConvention);
+  text += fmt::format("# force: {}\n# virial: {}\n", kForceConvention, kVirialConvention);
+  if (tapping) text += fmt::format("# energy lost: {}\n", kLossConvention);
+  return text + fmt::format("# heights: {}\n", kHeightConvention);
 }
 
 std::string path_header(const physics::SweepPlan& plan) {
@@ -140,6 +147,20 @@ json width_json(const std::vector<physics::TapJump>& jumps) {
   return jumps[1].z.si - jumps[0].z.si;
 }
 
+// Heights at which the swing does not repeat, in the order of the path: neighbours are one range.
+json restless_json(const std::vector<physics::TapPoint>& points) {
+  json ranges = json::array();
+  const physics::TapPoint* before = nullptr;
+  for (const physics::TapPoint& point : points) {
+    const bool goes_on = before != nullptr && !before->repeats && before->branch == point.branch;
+    before = &point;
+    if (point.repeats) continue;
+    if (!goes_on) ranges.push_back({{"branch", name_of_branch(point.branch)}, {"from_z_m", point.z.si}});
+    ranges.back()["to_z_m"] = point.z.si;
+  }
+  return ranges;
+}
+
 // Results of direct integration only: the higher harmonics and their effects.
 json harmonics_json(const physics::DirectSwing& swing, const physics::DrivenLever& lever) {
   json amplitudes = json::array();
@@ -163,7 +184,7 @@ json states_json(const TappingRun& run) {
     } else {
       state["start"] = row.start;
     }
-    state["state"] = name_of_state(row.tap.averages);
+    state["state"] = name_of_state(row.tap.averages, !row.swing || row.tap.stable);
     state["mean_deflection_m"] = row.tap.deflection.si + 0.0;
     state.update(averages_json(row.tap.averages));
     state["energy_cleveland_J"] = row.cleveland.si + 0.0;
@@ -206,7 +227,8 @@ std::string tapping_csv(const TappingRun& run) {
       const std::string last = run.method == physics::TapMethod::Direct
                                    ? row.start
                                    : fmt::format("{},{}", row.tap.stable ? "yes" : "no", finder_of(row));
-      fmt::format_to(out, ",{},{},{}\n", row.cleveland.si + 0.0, name_of_state(row.tap.averages), last);
+      fmt::format_to(out, ",{},{},{}\n", row.cleveland.si + 0.0,
+                     name_of_state(row.tap.averages, !row.swing || row.tap.stable), last);
     }
     return fmt::to_string(text);
   }
@@ -217,7 +239,7 @@ std::string tapping_csv(const TappingRun& run) {
                    point.deflection.si + 0.0);
     append_averages(text, point.averages);
     fmt::format_to(out, ",{},{},{}\n", point.cleveland.si + 0.0, name_of_branch(point.branch),
-                   name_of_state(point.averages));
+                   name_of_state(point.averages, point.repeats));
   }
   return fmt::to_string(text);
 }
@@ -265,6 +287,7 @@ nlohmann::ordered_json tapping_json(const TappingRun& run) {
   } else {
     result["islands"] = nullptr;
   }
+  result["restless"] = restless_json(run.curve.points);
   add_sources(result, run.setup);
   return result;
 }

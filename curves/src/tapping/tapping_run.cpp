@@ -152,22 +152,29 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
   const auto plan = read_plan(path, from, to);
   if (!plan) return tl::unexpected(plan.error());
   run.path.plan = *plan;
+  run.path.only_at_rest = options.method.empty();
   if (!path.speed.empty()) {
     const auto speed = read_quantity("--speed", path.speed, physics::kVelocityUnits);
     if (!speed) return tl::unexpected(speed.error());
     run.path.speed = *speed;
   }
   run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, watched_progress(watch));
-  if (!run.curve.lost_at) return {};
-  run.averages_lost_at = run.curve.lost_at;
-  if (!options.method.empty()) {
-    return wrong_usage(fmt::format("--method averaged: no averages follow the swing at {}; take direct",
-                                   physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits)));
+  if (run.curve.lost_at) {
+    run.averages_lost_at = run.curve.lost_at;
+    const std::string where = physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits);
+    if (!options.method.empty()) {
+      return wrong_usage(fmt::format("--method averaged: no averages follow the swing at {}; take direct", where));
+    }
+    core::log_line(fmt::format("no averages follow the swing at {}: integrating directly, which takes longer", where));
+    run.method = physics::TapMethod::Direct;
+    run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, watched_progress(watch));
   }
-  core::log_line(fmt::format("no averages follow the swing at {}: integrating directly, which takes longer",
-                             physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits)));
-  run.method = physics::TapMethod::Direct;
-  run.curve = physics::record_tapping_curve(surface, run.lever, run.path, run.method, watched_progress(watch));
+  const auto& rows = run.curve.points;
+  const auto restless = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return !row.repeats; });
+  if (restless > 0) {
+    core::log_line(fmt::format("at {} of {} heights the swing does not repeat from one period to the next", restless,
+                               rows.size()));
+  }
   return {};
 }
 

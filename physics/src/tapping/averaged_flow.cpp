@@ -27,7 +27,8 @@ AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const Driv
       a_(lever.base_amplitude.si),
       r_(lever.ratio),
       q_(lever.quality_factor),
-      shape_(std::make_unique<SwingShape>(k_, search == Search::Exact)) {}
+      harmonics_ratio_(search == Search::Exact ? lever.ratio : 1.0),
+      shape_(std::make_unique<SwingShape>(HarmonicResponse(k_, harmonics_ratio_), search == Search::Exact)) {}
 
 AveragedFlow::~AveragedFlow() = default;
 
@@ -36,7 +37,8 @@ const SwingAverages& AveragedFlow::averages(Length amplitude, Length z) noexcept
 }
 
 const SwingAverages& AveragedFlow::averages_at(double amplitude, double z, double coarseness) noexcept {
-  if (!bent_averages_at(amplitude, z, coarseness)) straight_averages_at(amplitude, z);
+  has_shape_ = bent_averages_at(amplitude, z, coarseness);
+  if (!has_shape_) straight_averages_at(amplitude, z);
   return averages_;
 }
 
@@ -51,7 +53,8 @@ bool AveragedFlow::bent_averages_at(double amplitude, double z, double coarsenes
   constexpr double kShapeShare = 0.1;
   double x = shift_, before = x, missing_before = 0.0, slope = -1.0;
   for (int i = 0; i < kMostSteps; ++i) {
-    averages_ = surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive()}, shape_.get());
+    averages_ =
+        surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive(), harmonics_ratio_}, shape_.get());
     const double bend_error = shape_->finish();
     const double missing = averages_.shift_at_lowest.si / k_ - x;
     const double bound = coarseness * (kShiftError + kShiftShare * std::abs(x));
@@ -76,7 +79,7 @@ void AveragedFlow::straight_averages_at(double amplitude, double z) noexcept {
   // secant steps on <F G>/k - x
   double x = std::isfinite(shift_) ? shift_ : 0.0, before = 0.0, missing_before = 0.0;
   for (int i = 0; i < kMostSteps; ++i) {
-    averages_ = surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive()});
+    averages_ = surface_->averages({Length(amplitude), Length(z + x), lever_.angular_drive(), harmonics_ratio_});
     const double missing = averages_.shift_at_lowest.si / k_ - x;
     shift_ = x;
     if (std::abs(missing) < kShiftError + kShiftShare * std::abs(x)) break;
@@ -195,8 +198,8 @@ double AveragedFlow::amplitude_at_lowest(double lowest, double z) noexcept {
     }
     for (int i = 0; i < kMostSteps; ++i) {
       const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
-      averages_ =
-          surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()}, shape_.get());
+      averages_ = surface_->averages(
+          {Length(amplitude), Length(lowest + amplitude), lever_.angular_drive(), harmonics_ratio_}, shape_.get());
       const double bend_error = shape_->finish(), shift = averages_.shift_at_lowest.si / k_;
       const bool done = std::abs(shift - shift_) < 1e-14 && bend_error < 1e-14;
       shift_ = shift;
@@ -218,8 +221,8 @@ AveragedFlow::Sample AveragedFlow::rough_sample_at(double lowest, double z) noex
   constexpr double kError = 1e-13;
   for (int i = 0; i < kMostSteps; ++i) {
     const double amplitude = std::max(kLeastAmplitude, z + shift_ - lowest);
-    averages_ =
-        surface_->averages({Length(amplitude), Length(lowest + amplitude), lever_.angular_drive()}, shape_.get());
+    averages_ = surface_->averages(
+        {Length(amplitude), Length(lowest + amplitude), lever_.angular_drive(), harmonics_ratio_}, shape_.get());
     const double bend_error = shape_->finish(), shift = averages_.shift_at_lowest.si / k_;
     const double missing = shift - shift_;
     shift_ = shift;
@@ -300,7 +303,7 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
   constexpr double kProbe = 1e-14;  // m, amplitude of a swing that feels one force
   constexpr int kHeights = 64, kHalvings = 60;
   const auto force = [&](double height) {
-    return surface_->averages({Length(kProbe), Length(height), lever_.angular_drive()}).mean.si;
+    return surface_->averages({Length(kProbe), Length(height), lever_.angular_drive(), harmonics_ratio_}).mean.si;
   };
   // of the lever and the sample, negative where the sample pushes the tip up
   const auto excess = [&](double height) { return k_ * (height - z) - force(height); };
@@ -327,7 +330,7 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
   const double deflection = low - z;
   // a free swing may have the same amplitude
   if (is_as_felt() || std::abs(tap.deflection.si - deflection) < 0.1 * std::abs(deflection)) return tap;
-  averages_ = surface_->averages({state.amplitude, Length(low), lever_.angular_drive()});
+  averages_ = surface_->averages({state.amplitude, Length(low), lever_.angular_drive(), harmonics_ratio_});
   return RestingTap{.state = state, .deflection = Length(deflection), .averages = averages_, .stable = true};
 }
 
@@ -350,6 +353,8 @@ std::vector<RestingTap> AveragedFlow::resting_at(Length z, Roots roots) {
   };
   const auto add_between = [&](const Sample& one, const Sample& other) {
     const RestingTap tap = root_between(one, other, z.si);
+    // without the bend its forces are not those of a swing
+    if (!has_shape_ && !is_as_felt()) return;
     const bool again =
         (!taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) < kSame * tap.state.amplitude) ||
         found_again(tap);

@@ -48,6 +48,7 @@ void gauss12(double from, double to, const Add& add) {
 struct SwingGeometry {
   double amplitude, bottom;
   double zero_of_indentation;
+  HarmonicResponse response;
   SwingShape* shape = nullptr;  // the bend, which learns the forces; null: none
   double ways = 1.0;            // share of both ways in which the force acts: 1, or one half
 
@@ -76,15 +77,16 @@ struct SwingGeometry {
   void add(double angle, double weight, const ForceAt& force_at, SwingSums& sums) const {
     const double s = std::sin(0.5 * angle), sine_squared = 4.0 * s * s * (1.0 - s * s);
     const double cosine = 1.0 - 2.0 * s * s, sine = std::sqrt(sine_squared);
+    const Turned of_angle{cosine, sine}, turned = response.turned(angle, of_angle);
     double bent = 0.0;
-    if (shape != nullptr) bent = ways == 1.0 ? shape->bend_now(angle, cosine, sine) : shape->bend(angle);
+    if (shape != nullptr) bent = ways == 1.0 ? shape->bend_now(angle, of_angle, turned) : shape->bend(angle);
     const double h = bottom + 2.0 * amplitude * s * s + bent;
     const double here = force_at(h), force = weight * here;
-    if (shape != nullptr) shape->add(angle, cosine, sine, ways * weight, here, bent);
+    if (shape != nullptr) shape->add(angle, of_angle, turned, ways * weight, here, bent);
     sums.force += force;
     sums.cosine += force * cosine;
     sums.work += force * sine;
-    sums.shift += force * ((std::numbers::pi - angle) * sine - 0.5 * cosine);
+    sums.shift += force * response.at_lowest(angle, of_angle, turned);
     if (h < zero_of_indentation) sums.viscous += weight * std::sqrt(zero_of_indentation - h) * sine_squared;
   }
 

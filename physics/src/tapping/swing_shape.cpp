@@ -36,14 +36,14 @@ double SwingShape::finish() noexcept {
   if (!std::is_sorted(newest.begin(), end, before)) std::sort(newest.begin(), end, before);
   double p = 0.0, c = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
-    p += newest[i].force * (std::numbers::pi - newest[i].angle) * newest[i].sine;
-    c += newest[i].force * newest[i].cosine;
+    p += response_.p_of(newest[i].force, newest[i].angle, newest[i].of_angle, newest[i].turned);
+    c += newest[i].force * newest[i].of_angle.cosine;
   }
-  const double p_more = p - p_, c_more = c - c_, scale = 1.0 / (2.0 * std::numbers::pi * k_);
+  const double p_more = p - p_, c_more = c - c_;
   double weight = 0.0, square = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
     const Node& node = newest[i];
-    const double more = scale * ((2.0 * p_more - c_more) * (node.cosine - 1.0) - 2.0 * c_more * node.angle * node.sine);
+    const double more = response_.bend_of_sums(p_more, c_more, node.angle, node.of_angle, node.turned);
     weight += std::abs(node.force);
     square += std::abs(node.force) * more * more;
   }

@@ -32,7 +32,8 @@ template <class SwungLaw>
 SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law, SwingShape* shape) {
   constexpr double kPi = std::numbers::pi;
   const double amplitude = swing.amplitude.si, bottom = swing.centre.si - amplitude;
-  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, shape};
+  const HarmonicResponse response = shape != nullptr ? shape->response() : HarmonicResponse(1.0, swing.ratio);
+  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, response, shape};
   SwingGeometry one_way = geometry;
   one_way.ways = 0.5;
   if (shape != nullptr) shape->begin();

@@ -10,7 +10,7 @@
 namespace afm::physics {
 namespace {
 
-// True if a swing goes on as it was within this distance, so that there is no fold. The steps of the flow may have
+// Whether a swing goes on as it was within this distance, so that there is no fold. The steps of the flow may have
 // turned the phase of one that does not feel them.
 bool same_swing_beside(const TapState& before, const TapState& after, Length distance) {
   constexpr double kSamePhase = 0.02;  // rad
@@ -18,7 +18,7 @@ bool same_swing_beside(const TapState& before, const TapState& after, Length dis
   return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(turned) < kSamePhase;
 }
 
-// True if a swing could rest: the drive sustains no larger one, and its phase has not turned on and on, as in the
+// Whether a swing could rest: the drive sustains no larger one, and its phase has not turned on and on, as in the
 // averaged flow of a lever far from its resonance.
 bool could_rest(const TapState& state, const DrivenLever& lever) {
   constexpr double kMostTurn = 4.0 * std::numbers::pi, kRounding = 1.001;
@@ -26,8 +26,22 @@ bool could_rest(const TapState& state, const DrivenLever& lever) {
   return std::abs(state.phase) < kMostTurn && state.amplitude < kRounding * largest;
 }
 
+// Whether the newest averages are those of this swing at rest, which `follows` knows already.
+bool rests(AveragedFlow& flow, const RestingTap& tap, Length z, bool follows) {
+  const bool shaped = flow.has_shape() || tap.averages.contact_share == 0.0;
+  TapState here = tap.state;
+  return shaped && (follows || flow.follow(here, z));
+}
+
+// Whether the phase has turned by more than a right angle from one height to the next: beside the resonance a branch
+// may end on either side of the free lever's phase.
+bool turns_over(const TapState& before, const TapState& after) {
+  return std::abs(std::remainder(after.phase - before.phase, 2.0 * std::numbers::pi)) > 0.5 * std::numbers::pi;
+}
+
 // A walk in one direction.
 struct Walked {
+  bool only_at_rest = false;
   bool follows = false;  // the swing is known to rest on a branch
   int false_folds = 0;   // places that Newton's method did not pass, though the swing goes on beyond them
 };
@@ -35,21 +49,30 @@ struct Walked {
 // From rest at one height to rest at another, along the branch as far as it goes.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
                   Walked& walked) {
-  // More false folds, or halvings of the step, of which a fold takes 40, show that averages are no way to follow this
-  // swing.
-  constexpr int kMostFalseFolds = 4, kMostHalvings = 1000;
+  constexpr int kMostFalseFolds = 4;     // more show that averages are no way to follow this swing
+  constexpr int kMostTries = 400;        // a fold takes some 100; more where Newton's method only creeps
   constexpr double kFoldError = 1e-18;   // m
   constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
   const double way = to.si - from.si;
   TapState here = state;
   const bool known = std::exchange(walked.follows, false);
+  const auto settle = [&](Length z) {
+    const TapState settled = flow.settle(state, z).state;
+    TapState rest = settled;
+    if (walked.only_at_rest && !flow.follow(rest, z)) curve.lost_at = z;
+    return settled;
+  };
   if (!known && !flow.follow(here, from)) {  // not at rest: a swing that hovers where contact begins
-    state = flow.settle(state, to).state;
+    state = settle(to);
     return;
   }
   double at = from.si, step = way;
-  int halvings = 0;
+  int tries = 0;
   while (at != to.si) {
+    if (++tries > kMostTries && !flow.is_as_felt()) {
+      curve.lost_at = Length(at);
+      return;
+    }
     const double next = std::abs(to.si - at) <= std::abs(step) ? to.si : at + step;
     if (flow.follow(state, Length(next))) {
       at = next;
@@ -57,13 +80,10 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
       continue;
     }
     step *= 0.5;
-    if (++halvings > kMostHalvings && !flow.is_as_felt()) {
-      curve.lost_at = Length(at);
-      return;
-    }
     if (std::abs(step) > kFoldError) continue;
     const Length fold(at), beyond(at + std::copysign(kBeyondFold, way));
-    const TapState landed = flow.settle(state, beyond).state;
+    const TapState landed = settle(beyond);
+    if (curve.lost_at) return;
     TapState after = landed;
     flow.follow(after, fold);
     if (flow.is_as_felt() || !same_swing_beside(state, after, Length(kBeyondFold))) {
@@ -79,7 +99,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     step = to.si - at;
     here = landed;
     if (step * way <= 0.0 || !flow.follow(here, beyond)) {  // a fold within the last picometres, or no rest beyond it
-      state = flow.settle(state, to).state;
+      state = settle(to);
       return;
     }
   }
@@ -155,16 +175,19 @@ void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch,
                           cleveland_energy(lever, tap.state.amplitude, tap.state.phase)});
 }
 
-void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
-                 Length least) {
+void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve, Length least,
+                 bool only_at_rest) {
   const auto& [branch, heights, reached] = direction;
-  Walked walked;
+  Walked walked{.only_at_rest = only_at_rest};
   for (std::size_t i = branch == Branch::Approach ? 0 : 1; i < heights.size(); ++i) {
     if (state.amplitude < least) return;
     if (i > 0) move_at_rest(flow, branch, heights[i - 1], heights[i], state, curve, walked);
-    if (!curve.lost_at && !flow.is_as_felt() && !could_rest(state, flow.lever())) curve.lost_at = heights[i];
+    const RestingTap tap = flow.describe(state, heights[i]);
+    const bool known = flow.is_as_felt() || (could_rest(state, flow.lever()) &&
+                                             (!only_at_rest || rests(flow, tap, heights[i], walked.follows)));
+    if (!curve.lost_at && !known) curve.lost_at = heights[i];
     if (curve.lost_at) return;
-    add_tap_point(curve, flow.lever(), branch, heights[i], flow.describe(state, heights[i]));
+    add_tap_point(curve, flow.lever(), branch, heights[i], tap);
     if (reached) reached();
   }
 }
@@ -177,11 +200,13 @@ void walk_slowly(TappingOscillator& tip, const TapDirection& direction, TappingC
     if (i > 0) {
       const TapPoint before = curve.points.back();
       const Length step = before.z - heights[i];
-      if (jumped(before.state, tap.state, tip.lever(), step)) {
+      const bool falls = jumped(before.state, tap.state, tip.lever(), step) || turns_over(before.state, tap.state);
+      if (before.repeats && tap.stable && falls) {
         curve.jumps.push_back({branch, 0.5 * (before.z + heights[i]), before.z, heights[i], before.state, tap.state});
       }
     }
     add_tap_point(curve, tip.lever(), branch, heights[i], tap);
+    curve.points.back().repeats = tap.stable;
     if (reached) reached();
   }
 }

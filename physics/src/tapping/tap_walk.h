@@ -38,9 +38,9 @@ bool jumped(const TapState& before, const TapState& after, const DrivenLever& le
 void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch, Length z, const RestingTap& tap);
 
 // From rest to rest along the branches, which it leaves exactly at their folds; ends early where the amplitude is less
-// than `least`.
+// than `least`, and is lost, if `only_at_rest`, where TapPath says so.
 void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
-                 Length least = Length());
+                 Length least = Length(), bool only_at_rest = false);
 void walk_slowly(TappingOscillator& tip, const TapDirection& direction, TappingCurve& curve);
 
 // At a constant speed.

@@ -144,7 +144,8 @@ TappingCurve record_tapping_curve(const std::shared_ptr<const TapSurface>& surfa
   AveragedFlow flow(surface, lever);
   TapState state = flow.settle({lever.free_amplitude, lever.free_phase}, path.plan.from).state;
   for (const TapDirection& direction : directions) {
-    path.speed ? walk_moving(flow, direction, *path.speed, state, curve) : walk_slowly(flow, direction, state, curve);
+    path.speed ? walk_moving(flow, direction, *path.speed, state, curve)
+               : walk_slowly(flow, direction, state, curve, Length(), path.only_at_rest);
     if (curve.lost_at) return curve;
   }
   add_loops(curve, lever);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace afm::physics {
@@ -42,7 +43,11 @@ void add(DirectSwing& sum, const DirectSwing& one) {
 }  // namespace
 
 RestingTap resting_tap(const DirectSwing& swing) noexcept {
-  RestingTap tap{.state = swing.state, .deflection = swing.deflection, .averages = swing.averages, .stable = true};
+  constexpr double kRepeats = 1e-3;
+  RestingTap tap{.state = swing.state,
+                 .deflection = swing.deflection,
+                 .averages = swing.averages,
+                 .stable = swing.change < kRepeats};
   if (tap.state.phase < 0.0) tap.state.phase += 2.0 * std::numbers::pi;
   return tap;
 }
@@ -221,9 +226,17 @@ DirectSwing TappingOscillator::settle(double settled) noexcept {
     if (abs(last.state.amplitude - before) < settled * lever_.free_amplitude) break;
     before = last.state.amplitude;
   }
+  const auto point = [](const TapState& at) { return std::polar(at.amplitude.si, at.phase); };
   DirectSwing sum = swing(), last = sum;
-  for (int i = 1; i < kAveraged; ++i) add(sum, last = swing());
-  return mean_of(sum, last, kAveraged);
+  double change = 0.0;
+  for (int i = 1; i < kAveraged; ++i) {
+    const TapState previous = last.state;
+    add(sum, last = swing());
+    change = std::max(change, std::abs(point(last.state) - point(previous)));
+  }
+  DirectSwing mean = mean_of(sum, last, kAveraged);
+  mean.change = change / lever_.free_amplitude.si;
+  return mean;
 }
 
 }  // namespace afm::physics

@@ -150,6 +150,27 @@ TEST(TappingCommand, GivesUpAveragesThatAreFollowedInTooSmallSteps) {
   EXPECT_THAT(refusal(choice, contact, path), HasSubstr("no averages follow the swing at "));
 }
 
+// A drive 6 % above the resonance, and a tip that sticks: no state for which a name would be true
+TEST(TappingCommand, NamesTheHeightsAtWhichTheSwingDoesNotRepeat) {
+  curves::ContactOptions contact = tapped("jkr");
+  contact.values = {{"tip-radius", "50nm"},    {"spring-constant", "0.872N/m"}, {"reduced-modulus", "80GPa"},
+                    {"resonance", "12.97kHz"}, {"quality-factor", "403.5"},     {"work-of-adhesion", "58.5mJ/m2"}};
+  curves::TappingChoice choice = tapping();
+  choice.contact_gap.clear();
+  choice.numbers.free_amplitude = "95.4nm";
+  choice.numbers.drive = "13.75kHz";
+  const curves::PathOptions path{.from = "96nm", .to = "76nm", .step = "4nm"};
+  const auto json = nlohmann::json::parse(tapping_text(choice, contact, path, "json").value());
+  EXPECT_EQ(json["method"], "direct");
+  ASSERT_FALSE(json["restless"].empty());
+  EXPECT_EQ(json["restless"][0]["branch"], "approach");
+  EXPECT_GE(json["restless"][0]["from_z_m"], json["restless"][0]["to_z_m"]);
+  EXPECT_TRUE(json["jumps"].empty()) << json["jumps"];
+  EXPECT_THAT(json["conventions"]["energy_lost"].get<std::string>(), HasSubstr("1e-4 k A0^2"));
+  EXPECT_THAT(tapping_text(choice, contact, path, "csv").value(), HasSubstr(",approach,restless\n"));
+  EXPECT_TRUE(json_of(tapping())["restless"].empty());
+}
+
 TEST(TappingSweep, MapsTheStatesOverFreeAmplitudeAndHeight) {
   const auto points = swept({"free-amplitude=10nm:20nm:2", "z=5nm:17.4149nm:2"});
   ASSERT_EQ(points.size(), 4U) << points;

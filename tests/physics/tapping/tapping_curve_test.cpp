@@ -68,6 +68,41 @@ TEST(TappingCurve, LosesItsAveragesWhereTheFlowTurnsOnAndOn) {
   }
 }
 
+// Newton's method crept for minutes on the first, and rows on the second had phases at which no swing rests
+TEST(TappingCurve, IsLostWhereItsSwingDoesNotRest) {
+  const TappedSample far{
+      .k = 2.51, .q = 283, .ratio = 1.318, .a0_nm = 43.9, .r_nm = 33.6, .h_zj = 20.3, .e_gpa = 0.0572};
+  EXPECT_TRUE(curve_of(far, {{48_nm, 5_nm, 0.88_nm}, {}, true}).lost_at);
+  const TappedSample latch{.k = 17.7, .q = 651, .a0_nm = 9.47, .r_nm = 26.1, .h_zj = 96.2, .e_gpa = 4.65};
+  const TapPath path{{9.6_nm, 9_nm, 0.05_nm}, {}, true};
+  const TappingCurve curve = record_tapping_curve(latch.surface(Law::Jkr), latch.lever(), path, TapMethod::Averaged);
+  ASSERT_TRUE(curve.lost_at);
+  EXPECT_GT(*curve.lost_at, 9.4_nm);
+}
+
+// Above the resonance the branch ends on the other side of the free lever's phase; direct integration counted no jump
+TEST(TappingCurve, JumpsByBothMethodsFarAboveTheResonance) {
+  const TappedSample sample{.k = 11, .q = 178, .ratio = 1.26, .a0_nm = 29.7, .r_nm = 9.8, .h_zj = 57.3, .e_gpa = 2.62};
+  const TapPath path{{30_nm, 26_nm, 0.5_nm}, {}, true};
+  const auto averaged = jump_on(curve_of(sample, path), Branch::Approach);
+  const auto direct = jump_on(curve_of(sample, path, TapMethod::Direct), Branch::Approach);
+  ASSERT_TRUE(averaged && direct);
+  EXPECT_NEAR(nm_of(averaged->z), nm_of(direct->z), 0.5);
+  EXPECT_NEAR(nm_of(averaged->after.amplitude), nm_of(direct->after.amplitude), 1.0);
+}
+
+// The swing of a soft lever far from its resonance repeats only after several periods, or never; its rows were
+// compared, and 11 jumps found
+TEST(TappingCurve, HasNoJumpsBetweenSwingsThatDoNotRepeat) {
+  const TappedSample soft{
+      .k = 0.872, .q = 403.5, .ratio = 13.75 / 12.97, .a0_nm = 95.4, .r_nm = 50, .h_zj = 60, .e_gpa = 80};
+  const TapPath path{{96_nm, 76_nm, 4_nm}, {}};
+  const TappingCurve curve = record_tapping_curve(soft.surface(Law::Jkr), soft.lever(), path, TapMethod::Direct);
+  EXPECT_TRUE(curve.points.front().repeats);
+  EXPECT_GE(std::count_if(curve.points.begin(), curve.points.end(), [](const TapPoint& p) { return !p.repeats; }), 3);
+  for (const TapJump& jump : curve.jumps) ADD_FAILURE() << nm_of(jump.z);
+}
+
 // A curve may take a minute: its progress is logged.
 TEST(TappingCurve, CountsEachHeightAndThoseOfItsIslands) {
   const TappedSample sample{.q = 100.0};

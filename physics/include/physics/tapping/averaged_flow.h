@@ -44,7 +44,7 @@ class AveragedFlow {
   static constexpr double kLeastQuality = 100.0;
 
   // AsFelt: as sessions of a hand have it, which replay bit for bit. Its loss of the harmonics is too large for swings
-  // far smaller than the mean deflection.
+  // far smaller than the mean deflection, and beside the resonance they answer as at the resonance.
   enum class Search { Exact, AsFelt };
 
   AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever, Search search = Search::Exact);
@@ -66,6 +66,10 @@ class AveragedFlow {
 
   // A resting swing in full.
   RestingTap describe(const TapState& state, Length z) noexcept;
+
+  // Whether the newest averages are those of a swing with its harmonics: not over a contact so stiff that they find no
+  // shape.
+  bool has_shape() const noexcept { return has_shape_; }
 
   // Averages of a swing of this amplitude, to some 1e-4. The reference is valid until the next call.
   const SwingAverages& averages(Length amplitude, Length z) noexcept;
@@ -126,8 +130,10 @@ class AveragedFlow {
   DrivenLever lever_;
   Search search_;
   double k_, a_, r_, q_;
+  double harmonics_ratio_;             // drive over resonance, as the harmonics have it
   std::unique_ptr<SwingShape> shape_;  // bend of the previous swing
-  double shift_ = 0.0;                 // shift of the lowest point in the previous swing
+  bool has_shape_ = true;
+  double shift_ = 0.0;  // shift of the lowest point in the previous swing
   SwingAverages averages_;
 };
 

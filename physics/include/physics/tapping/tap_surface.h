@@ -20,14 +20,16 @@ struct TapSwing {
   Length amplitude;     // A, zero-to-peak
   Length centre;        // mean height of the tip
   double angular_rate;  // rad/s, for the viscosity
+  double ratio = 1.0;   // drive over resonance, for the harmonics; with a bend that of the bend holds
 };
 
 // Means of the sample's force F over one swing. The mean deflection and the higher harmonics, which answer like a
-// spring, shift the lowest point of a lever at its resonance by <F G>/k with
+// spring, shift the lowest point of a lever that is driven at r of its resonance by <F G>/k with
 //
-//   G(t) = 1 + 2 sum over n > 1 of cos(n t)/(1 - n^2) = (pi - t) sin(t) - cos(t)/2,   0 <= t <= 2 pi,
+//   G(t) = 1 + 2 sum over n > 1 of cos(n t)/(1 - n^2 r^2),   at the resonance (pi - t) sin(t) - cos(t)/2,
 //
-// t from the lowest point; for a short contact that is half of <F>/k towards the sample, not <F>/k away from it.
+// 0 <= t <= 2 pi from the lowest point (tapping/harmonic_response.h); for a short contact at the resonance that is half
+// of <F>/k towards the sample, not <F>/k away from it.
 struct SwingAverages {
   Force mean;                  // <F>
   Force shift_at_lowest;       // k times the deflection at the lowest point that is not of the first harmonic

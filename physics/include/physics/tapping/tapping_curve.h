@@ -23,6 +23,9 @@ enum class TapMethod { Averaged, Direct };
 struct TapPath {
   SweepPlan plan;
   std::optional<Velocity> speed;
+  // Averaged: lost also at the first height at which a swing is not at rest, as one that hovers where a latch closes,
+  // or finds no shape over a stiff contact.
+  bool only_at_rest = false;
 };
 
 // One row of the curve.
@@ -33,6 +36,7 @@ struct TapPoint {
   Length deflection;       // x0, mean
   SwingAverages averages;  // energy lost: true
   Energy cleveland;        // energy lost, inferred from amplitude and phase
+  bool repeats = true;     // false: not from one period to the next, so that the row is one of its periods
 };
 
 // A change between the states: a fold where one ends, or where the phase of a moving tip passes that of the free lever.
@@ -59,7 +63,8 @@ struct TappingCurve {
   Energy work_on_hand;             // by the mean force over the loop; positive: the drive feeds the hand
   Area reduction_loop;  // loop integral of A0 - A over Z: negative if a push by it takes energy from the hand
   // Height at which Newton's method lost an averaged swing that goes on beyond it, as it may over a contact far stiffer
-  // than the lever. The curve ends there, without loops and islands; direct integration has no such place.
+  // than the lever, or of TapPath::only_at_rest. The curve ends there, without loops and islands; direct integration
+  // has no such place.
   std::optional<Length> lost_at;
 };
 

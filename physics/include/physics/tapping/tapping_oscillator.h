@@ -22,9 +22,11 @@ struct DirectSwing {
   Area mean_square;                      // <x^2>
   double mean_square_velocity_si = 0.0;  // <x'^2>, m^2/s^2
   std::array<Length, 6> harmonics{};     // A_n; 0 is |x0|
+  double change = 0.0;  // largest change of the first harmonic from one swing to the next in settle(), as a share of A0
 };
 
-// That swing as a resting one, with its lag between 0 and 360 degrees, so that none jumps at 180.
+// That swing as a resting one, with its lag between 0 and 360 degrees, so that none jumps at 180; stable if it repeats,
+// to a thousandth of A0.
 RestingTap resting_tap(const DirectSwing& swing) noexcept;
 
 // A tapping tip as a point mass, integrated directly: x = p + y, with p the free swing, which is known, and y a lever
