@@ -42,7 +42,7 @@ class HarmonicResponse {
     return resonant_ ? of_t : Turned{std::cos(a_ * t), std::sin(a_ * t)};
   }
 
-  // What a force adds to P.
+  // Contribution of a force to P.
   double p_of(double force, double t, const Turned& of_t, const Turned& of_at) const noexcept {
     if (resonant_) return force * (std::numbers::pi - t) * of_t.sine;
     return force * (end_.cosine * of_at.cosine + end_.sine * of_at.sine);

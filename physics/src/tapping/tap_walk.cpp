@@ -10,7 +10,7 @@
 namespace afm::physics {
 namespace {
 
-// Whether a swing goes on as it was within this distance, so that there is no fold. The steps of the flow may have
+// True if a swing goes on as it was within this distance, so that there is no fold. The steps of the flow may have
 // turned the phase of one that does not feel them.
 bool same_swing_beside(const TapState& before, const TapState& after, Length distance) {
   constexpr double kSamePhase = 0.02;  // rad
@@ -18,7 +18,7 @@ bool same_swing_beside(const TapState& before, const TapState& after, Length dis
   return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(turned) < kSamePhase;
 }
 
-// Whether a swing could rest: the drive sustains no larger one, and its phase has not turned on and on, as in the
+// True if a swing could rest: the drive sustains no larger one, and its phase has not turned on and on, as in the
 // averaged flow of a lever far from its resonance.
 bool could_rest(const TapState& state, const DrivenLever& lever) {
   constexpr double kMostTurn = 4.0 * std::numbers::pi, kRounding = 1.001;
@@ -26,14 +26,14 @@ bool could_rest(const TapState& state, const DrivenLever& lever) {
   return std::abs(state.phase) < kMostTurn && state.amplitude < kRounding * largest;
 }
 
-// Whether the newest averages are those of this swing at rest, which `follows` knows already.
+// True if the newest averages are those of this swing at rest, which `follows` knows already.
 bool rests(AveragedFlow& flow, const RestingTap& tap, Length z, bool follows) {
   const bool shaped = flow.has_shape() || tap.averages.contact_share == 0.0;
   TapState here = tap.state;
   return shaped && (follows || flow.follow(here, z));
 }
 
-// Whether the phase has turned by more than a right angle from one height to the next: beside the resonance a branch
+// True if the phase has turned by more than a right angle from one height to the next: beside the resonance a branch
 // may end on either side of the free lever's phase.
 bool turns_over(const TapState& before, const TapState& after) {
   return std::abs(std::remainder(after.phase - before.phase, 2.0 * std::numbers::pi)) > 0.5 * std::numbers::pi;

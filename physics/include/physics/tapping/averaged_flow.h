@@ -67,7 +67,7 @@ class AveragedFlow {
   // A resting swing in full.
   RestingTap describe(const TapState& state, Length z) noexcept;
 
-  // Whether the newest averages are those of a swing with its harmonics: not over a contact so stiff that they find no
+  // True if the newest averages are those of a swing with its harmonics: not over a contact so stiff that they find no
   // shape.
   bool has_shape() const noexcept { return has_shape_; }
 
