@@ -16,6 +16,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/lesson/live_lesson.h"
 #include "exhibit/panels/panel_hit.h"
+#include "exhibit/scenery/lines_on_sample.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
@@ -114,9 +115,15 @@ void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
 void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
   const render::PanelPlacement words = parts_.stage.wall_scene.places().parameters();
   const render::PanelPlacement banner = picture.panels.banner.placement;
+  const exhibit::LinesToWrite* const lines = lesson_.prompt().lines;
+  if (lines != nullptr) exhibit::add_lines(*lines, parts_.stage.wall_scene, picture);
   if (!lesson_.shows_scene()) {
     exhibit::blank(picture);
     picture.panels.banner.placement = banner;
+  }
+  // the words take the place of the figures of particles and marks, which take that of the curve
+  if (picture.panels.particles.placement != render::kNoPlacement) {
+    picture.panels.particles.placement = std::exchange(picture.panels.force.placement, render::kNoPlacement);
   }
   if (lesson_.prompt().hidden) {
     picture.panels.force.placement = render::kNoPlacement;
@@ -158,7 +165,7 @@ std::string LessonControl::spoken(const std::string& line) {
 
 void LessonControl::restart(Restart what) {
   if (what != Restart::Visitor) lesson_.forget_laid();
-  if (what == Restart::Servo && lesson_.prompt().wants == exhibit::LessonPrompt::Wants::Push) lesson_.try_again();
+  if (what == Restart::Servo && lesson_.prompt().moves_matter()) lesson_.try_again();
 }
 
 }  // namespace afm::app

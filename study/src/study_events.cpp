@@ -155,6 +155,10 @@ class EventsLine {
       case StepKind::Push:
         push(trial);
         break;
+      case StepKind::Write:
+        if (!trial.stimulus.empty()) refuse(Stimulus, "empty for lines to be written");
+        task(trial);
+        break;
       case StepKind::Text:
       case StepKind::Free:
         break;
@@ -181,6 +185,11 @@ class EventsLine {
     if (std::find(kPushEnds.begin(), kPushEnds.end(), trial.stimulus) == kPushEnds.end()) {
       refuse(Stimulus, "moved, target, pattern or lost");
     }
+    task(trial);
+  }
+
+  // Columns of a push, and of lines that were written.
+  void task(StudyTrial& trial) {
     trial.value = optional(Response, 0, kFarthestPush_m);
     trial.strokes = count(Strokes);
     trial.losses = count(Losses);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <initializer_list>
 #include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -90,10 +91,10 @@ void add_thresholds(const std::vector<ThresholdResult>& results, std::vector<Mea
   }
 }
 
-// Pushes named NAME-before and NAME-after are compared like two conditions of NAME.
-TrialGroups before_and_after(const TrialGroups& pushes) {
+// Steps named NAME-before and NAME-after are compared like two conditions of NAME.
+TrialGroups before_and_after(const TrialGroups& steps) {
   TrialGroups groups;
-  for (const auto& [where, people] : pushes) {
+  for (const auto& [where, people] : steps) {
     StepAndCondition to = where;
     for (const std::string time : {"before", "after"}) {
       if (!where.condition.empty() || !where.step.ends_with("-" + time)) continue;
@@ -108,7 +109,9 @@ bool has_aid(const StudyTrial& trial, std::string_view aid) {
   return fmt::format("+{}+", trial.aids).find(fmt::format("+{}+", aid)) != std::string::npos;
 }
 
-struct PushRow {
+std::optional<double> value_of(const StudyTrial& trial) { return trial.value; }
+
+struct TaskRow {
   const char* key;
   const char* title;
   const char* unit;
@@ -117,29 +120,51 @@ struct PushRow {
   NumberOf number;
 };
 
+// Numbers of a task: a push, or lines that were written.
+void add_task(const TrialGroups& steps, std::span<const TaskRow> rows, LessonResults& results) {
+  const TrialGroups groups = before_and_after(steps);
+  for (const TaskRow& row : rows) {
+    Measure like;
+    like.key = row.key, like.unit = row.unit, like.per_si = row.per_si, like.scale = row.scale;
+    add_means(groups, like, row.title, row.number, results.measures);
+  }
+}
+
+constexpr Interval kAnyNumber{-kUnbounded, kUnbounded};
+std::optional<double> strokes_of(const StudyTrial& trial) { return trial.strokes; }
+std::optional<double> undos_of(const StudyTrial& trial) { return trial.undos; }
+std::optional<double> work_of(const StudyTrial& trial) { return trial.work_j; }
+std::optional<double> largest_force_of(const StudyTrial& trial) { return trial.largest_force_n; }
+std::optional<double> seconds_of(const StudyTrial& trial) { return trial.rt_s; }
+
+void add_written(const TrialGroups& lines, LessonResults& results) {
+  add_task(lines,
+           std::array{TaskRow{"off_m", "distance from the lines", "nm", 1e9, kNotNegative, value_of},
+                      TaskRow{"writing_time_s", "time of writing", "s", 1.0, kNotNegative, seconds_of},
+                      TaskRow{"strokes", "strokes", "", 1.0, kNotNegative, strokes_of},
+                      TaskRow{"undos", "strokes taken back", "", 1.0, kNotNegative, undos_of},
+                      TaskRow{"work_J", "work on the sample", "aJ", 1e18, kAnyNumber, work_of},
+                      TaskRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative, largest_force_of}},
+           results);
+}
+
 void add_pushes(const TrialGroups& pushes, LessonResults& results) {
   const auto only = [](std::initializer_list<std::string_view> ends) {
     return [ends = std::vector<std::string_view>(ends)](const StudyTrial& trial) {
       return std::find(ends.begin(), ends.end(), trial.stimulus) != ends.end() ? trial.value : std::nullopt;
     };
   };
-  const std::array rows{
-      PushRow{"distance_m", "distance from the targets", "nm", 1e9, kNotNegative, only({"target", "pattern"})},
-      PushRow{"way_m", "way of the particle", "nm", 1e9, kNotNegative, only({"moved", "lost"})},
-      PushRow{"push_time_s", "time of the push", "s", 1.0, kNotNegative, [](const auto& trial) { return trial.rt_s; }},
-      PushRow{"strokes", "pushes", "", 1.0, kNotNegative, [](const auto& trial) { return trial.strokes; }},
-      PushRow{"losses", "slipped past", "", 1.0, kNotNegative, [](const auto& trial) { return trial.losses; }},
-      PushRow{"undos", "pushes taken back", "", 1.0, kNotNegative, [](const auto& trial) { return trial.undos; }},
-      PushRow{"work_J", "work on the particles", "aJ", 1e18, Interval{-kUnbounded, kUnbounded},
-              [](const auto& trial) { return trial.work_j; }},
-      PushRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative,
-              [](const auto& trial) { return trial.largest_force_n; }}};
-  const TrialGroups groups = before_and_after(pushes);
-  for (const PushRow& row : rows) {
-    Measure like;
-    like.key = row.key, like.unit = row.unit, like.per_si = row.per_si, like.scale = row.scale;
-    add_means(groups, like, row.title, row.number, results.measures);
-  }
+  add_task(pushes,
+           std::array{
+               TaskRow{"distance_m", "distance from the targets", "nm", 1e9, kNotNegative, only({"target", "pattern"})},
+               TaskRow{"way_m", "way of the particle", "nm", 1e9, kNotNegative, only({"moved", "lost"})},
+               TaskRow{"push_time_s", "time of the push", "s", 1.0, kNotNegative, seconds_of},
+               TaskRow{"strokes", "pushes", "", 1.0, kNotNegative, strokes_of},
+               TaskRow{"losses", "slipped past", "", 1.0, kNotNegative, [](const auto& trial) { return trial.losses; }},
+               TaskRow{"undos", "pushes taken back", "", 1.0, kNotNegative, undos_of},
+               TaskRow{"work_J", "work on the particles", "aJ", 1e18, kAnyNumber, work_of},
+               TaskRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative, largest_force_of}},
+           results);
   for (const auto& [where, people] : pushes) {
     for (const auto& [id, trials] : people) {
       for (const StudyTrial* trial : trials) {
@@ -177,8 +202,6 @@ Measure measure_of(std::string key, std::string unit, double per_si, const Inter
   like.key = std::move(key), like.unit = std::move(unit), like.per_si = per_si, like.scale = scale;
   return like;
 }
-
-std::optional<double> value_of(const StudyTrial& trial) { return trial.value; }
 
 void add_answer_times(const TrialGroups& groups, LessonResults& results) {
   add_means(
@@ -233,7 +256,8 @@ struct MeasuresRow {
 constexpr std::array kMeasures{
     MeasuresRow{StepKind::Identify, add_identified}, MeasuresRow{StepKind::Threshold, add_compared},
     MeasuresRow{StepKind::Draw, add_drawings},       MeasuresRow{StepKind::Cycle, add_felt},
-    MeasuresRow{StepKind::Push, add_pushes},         MeasuresRow{StepKind::Question, add_questions}};
+    MeasuresRow{StepKind::Push, add_pushes},         MeasuresRow{StepKind::Write, add_written},
+    MeasuresRow{StepKind::Question, add_questions}};
 constexpr bool is_measured(const StepKindRow& step) {
   return std::any_of(kMeasures.begin(), kMeasures.end(), [&](const MeasuresRow& row) { return row.kind == step.kind; });
 }

@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "exhibit/models/user_models.h"
+#include "exhibit/scenery/lines_on_sample.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/scenery/wall_scene.h"
+#include "exhibit/state/lines_to_write.h"
 #include "physics/manipulation/tip_contact.h"
 #include "scene/samples/particle_set.h"
 #include "servo/live_picture.h"
@@ -49,6 +51,26 @@ class ParticlesOfAWall : public test::PaperWall {
 
   scene::ParticleSet set_ = test::particle_set("gold-row");
 };
+
+TEST_F(ParticlesOfAWall, LinesToBeWrittenAreDotsFromCornerToCorner) {
+  const LinesToWrite lines{.lines_m = {{{-80e-9, 40e-9}, {80e-9, 40e-9}}, {{0.0, 40e-9}, {0.0, -80e-9}}},
+                           .width_m = 20e-9};
+  const WallScene wall = wall_of(test::particle_set("scratch-pmma"));
+  render::FrameState drawn = frame(wall, nullptr);
+  const std::size_t before = drawn.copies.size();
+  add_lines(lines, wall, drawn);
+  ASSERT_EQ(drawn.copies.size(), before + 1);
+  const render::MeshCopies dots = drawn.copies.back();
+  EXPECT_EQ(dots.node, wall.scene().find_node("plan-line/dot").value());
+  EXPECT_EQ(dots.copies.size(), 14U + 11U) << "every 12 nm";
+  EXPECT_LE(dots.copies.size(), wall.scene().nodes[dots.node].most_copies);
+  drawn.copies = {dots};
+  const glm::dvec3 first_m = centre_m(wall, drawn, 0), last_m = centre_m(wall, drawn, 24);
+  EXPECT_LT(glm::distance(glm::dvec2(first_m), glm::dvec2(-80e-9, 40e-9)), 1e-11);
+  EXPECT_LT(glm::distance(glm::dvec2(last_m), glm::dvec2(0.0, -80e-9)), 1e-11);
+  add_lines({.lines_m = std::vector(20, lines.lines_m[0]), .width_m = 1e-9}, wall, drawn);
+  EXPECT_EQ(drawn.copies.back().copies.size(), wall.scene().nodes[dots.node].most_copies) << "more are left out";
+}
 
 TEST_F(ParticlesOfAWall, LieAtTheirStartWithTheSizeOfTheScaleLine) {
   for (const char* name : {"gold-row", "latex-letter"}) {

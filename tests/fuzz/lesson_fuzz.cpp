@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "exhibit/state/lines_to_write.h"
 #include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 #include "scene/samples/particle_set.h"
@@ -22,6 +23,15 @@ bool can_be_pushed(const afm::exhibit::PushPlan& plan, const afm::exhibit::Lesso
   return plan.until != PushUntil::Moved || (std::isfinite(plan.distance_m) && plan.distance_m > 0.0);
 }
 
+bool can_be_written(const afm::exhibit::LinesToWrite& lines, const afm::exhibit::Lesson& lesson) {
+  return lesson.set && lesson.set->soft && std::isfinite(lines.width_m) && lines.width_m > 0.0 &&
+         !lines.lines_m.empty() && std::all_of(lines.lines_m.begin(), lines.lines_m.end(), [](const auto& corners_m) {
+           return corners_m.size() >= 2 && std::all_of(corners_m.begin(), corners_m.end(), [](const auto& corner_m) {
+                    return std::isfinite(corner_m.x) && std::isfinite(corner_m.y);
+                  });
+         });
+}
+
 bool can_be_run(const afm::exhibit::LessonStep& step, const afm::exhibit::Lesson& lesson) {
   using afm::exhibit::StepKind;
   const auto& plan = step.threshold;
@@ -29,6 +39,7 @@ bool can_be_run(const afm::exhibit::LessonStep& step, const afm::exhibit::Lesson
       std::all_of(step.materials.begin(), step.materials.end(), [&](auto i) { return i < lesson.materials.size(); });
   const bool felt = step.kind == StepKind::Cycle || step.kind == StepKind::Threshold;
   if (step.kind == StepKind::Push && !can_be_pushed(step.push, lesson)) return false;
+  if (step.kind == StepKind::Write && (!step.lines || !can_be_written(*step.lines, lesson))) return false;
   return of_lesson && (!felt || step.materials.size() == 1) &&
          (step.kind != StepKind::Identify ||
           (step.states ? lesson.tapping && step.materials.size() == 1 : step.materials.size() >= 2)) &&

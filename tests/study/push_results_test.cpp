@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -52,6 +53,49 @@ TEST(PushTrials, AreRefusedByLineAndColumn) {
   EXPECT_THAT(fault(with(line, "8e-09", "8")), HasSubstr("x.tsv:2: response \"8\""));
   EXPECT_THAT(fault(with(line, "\t3\t2\t", "\t3\t1.5\t")), HasSubstr("losses \"1.5\" is not a whole number"));
   EXPECT_THAT(fault(with(line, "0.25", "-1")), HasSubstr("largest_force \"-1\""));
+}
+
+std::string written(const std::string& step, double response_m, int undos) {
+  return fmt::format("1\t2\t{}\twrite\tn/a\t0\t1\tn/a\tn/a\t{:.6g}\tn/a\t30\t1\t2\t0\t{}\t4000\t21\ttruth\n", step,
+                     response_m, undos);
+}
+
+TEST(WrittenLines, AreReadWithTheirFiguresInSiOrRefused) {
+  const std::string line = written("letter", 2e-9, 1);
+  const auto events = parse_events(kHeader + line, "x.tsv");
+  ASSERT_TRUE(events) << events.error().message;
+  const StudyTrial& trial = events->trials.at(0);
+  EXPECT_EQ(trial.kind, StepKind::Write);
+  EXPECT_DOUBLE_EQ(trial.value.value(), 2e-9);
+  EXPECT_DOUBLE_EQ(trial.undos.value(), 1.0);
+  EXPECT_NEAR(trial.work_j.value(), 4e-15, 1e-24);
+  const auto fault = [](const std::string& bad) { return parse_events(kHeader + bad, "x.tsv").error().message; };
+  EXPECT_THAT(fault(with(line, "n/a\t2e-09", "moved\t2e-09")), HasSubstr("stimulus \"moved\" is not empty"));
+  EXPECT_THAT(fault(with(line, "2e-09", "2")), HasSubstr("response \"2\""));
+}
+
+TEST(WrittenLines, AreComparedBeforeAndAfterByPerson) {
+  const support::ScratchFolder folder;
+  test::StudyWriter writer(folder.path());
+  for (std::size_t person = 0; person < 3; ++person) {
+    const double off_m = 1e-9 * static_cast<double>(person);
+    writer.add_bids_person(person,
+                           kHeader + written("letter-before", 5e-9 + off_m, 2) + written("letter-after", 3e-9, 0));
+  }
+  const auto data = read_study(folder.path());
+  ASSERT_TRUE(data) << data.error().message;
+  const StudyResults results = study_results(*data);
+  const LessonResults& lesson = results.lessons.at(0);
+  EXPECT_EQ(lesson.pushes.counted, 0U);
+  std::string keys;
+  for (const Measure& each : lesson.measures) keys += each.key + " ";
+  EXPECT_THAT(keys, AllOf(HasSubstr("off_m.letter"), HasSubstr("writing_time_s.letter"), HasSubstr("undos.letter")));
+  EXPECT_NEAR(lesson.measures.at(0).values.at("before").at("sub-AAAAAC"), 7e-9, 1e-18);
+  const auto compared = std::find_if(lesson.comparisons.begin(), lesson.comparisons.end(), [](const auto& each) {
+    return each.measure == "letter, distance from the lines";
+  });
+  ASSERT_NE(compared, lesson.comparisons.end());
+  EXPECT_LT(compared->test.effect.value, 0.0) << "nearer";
 }
 
 // Three people, nearer and 20 s faster after the lesson.

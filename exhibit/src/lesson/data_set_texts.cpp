@@ -47,27 +47,32 @@ constexpr std::array kEventTexts{
                "4, sus 1 "
                "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N; push: in m, for target "
                "and pattern the root mean square "
-               "distance from the targets; for moved and lost, of the particle from its start",
+               "distance from the targets; for moved and lost, of the particle from its start; write: in m, the root "
+               "mean square "
+               "distance of the groove from the lines",
                nullptr},
     ColumnText{"correct", "whether the answer is right", nullptr, {{{"0", "wrong"}, {"1", "right"}}}},
-    ColumnText{"rt", "time from the question to the answer; push: from the first push to the last lift of the tip",
-               "s"},
+    ColumnText{
+        "rt", "time from the question to the answer; push and write: from the first stroke to the last lift of the tip",
+        "s"},
     ColumnText{"force",
-               "full force on the hand from snap-in to pull-off, in each cycle of the trial; push: whenever the tip "
-               "touched a particle; n/a for a trial without either. An attempt that was not felt as the condition sets "
+               "full force on the hand from snap-in to pull-off, in each cycle of the trial; push and write: whenever "
+               "the tip touched a particle or the soft sample; n/a for a trial without either. An attempt that was not "
+               "felt as the condition sets "
                "it has no response, and its trial was "
                "repeated",
                nullptr,
                {{{"0", "off, at least for a part of the time"}, {"1", "on"}}}},
-    ColumnText{"strokes", "push: times that the tip came down and moved a particle", nullptr},
+    ColumnText{"strokes", "push and write: times that the tip came down and moved a particle or marked the sample",
+               nullptr},
     ColumnText{"losses", "push: times that the tip slipped past a particle that it had pushed", nullptr},
-    ColumnText{"undos", "push: number of pushes taken back", nullptr},
-    ColumnText{"work", "push: work of the hand on the particles", "aJ"},
-    ColumnText{"largest_force", "push: largest lateral force of the particles on the lever", "nN"},
+    ColumnText{"undos", "push and write: number of strokes taken back", nullptr},
+    ColumnText{"work", "push and write: work of the hand on particles or sample", "aJ"},
+    ColumnText{"largest_force", "push and write: largest lateral force of particles or sample on the lever", "nN"},
     ColumnText{"aids",
-               "push: aids used, joined by +",
+               "push and write: aids used, joined by +",
                nullptr,
-               {{{"truth", "the wall showed where the particles were"}, {"undo", "pushes were taken back"}}}}};
+               {{{"truth", "the wall showed particles and marks"}, {"undo", "strokes were taken back"}}}}};
 
 constexpr std::array kParticipantTexts{
     ColumnText{"participant_id", "sub- and the participant's code of six letters", nullptr},

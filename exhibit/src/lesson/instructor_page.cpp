@@ -28,6 +28,8 @@ Phrase awaited(Wants wants) {
       return Phrase::InstructorWaitsCycle;
     case Wants::Push:
       return Phrase::InstructorWaitsPush;
+    case Wants::Write:
+      return Phrase::InstructorWaitsWrite;
     case Wants::Answer:
       return Phrase::InstructorWaitsAnswer;
     case Wants::Nothing:

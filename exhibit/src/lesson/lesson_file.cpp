@@ -15,8 +15,9 @@
 #include "core/fnv1a.h"
 #include "core/whole_file.h"
 #include "exhibit/lesson/questionnaire.h"
+#include "exhibit/state/lines_to_write.h"
+#include "lesson_particles.h"
 #include "lesson_tapping.h"
-#include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
@@ -29,13 +30,11 @@ namespace {
 
 using scene::TomlTable;
 using study::StepAnswer;
-using study::StepBeside;
 
 constexpr const char* kKind = "lesson file";
 constexpr std::size_t kMostSteps = 100, kMostIdLetters = 40, kMostConditions = 4;
 constexpr int kMostTrials = 200, kMostPractice = 20;
 constexpr double kLongestHintS = 600;
-constexpr std::size_t kMostPathLetters = 1000;
 
 // A part of file names, or of columns.
 std::string read_id(const TomlTable& table, std::string_view key) {
@@ -168,70 +167,11 @@ void read_questionnaire(const TomlTable& table, LessonStep& step) {
   if (!step.id.ends_with(ending)) table.refuse("id", fmt::format("of this step must end in {}", ending));
 }
 
-// The longer side of the field on which the particles of a set lie, with a radius around it: the reach of the hand.
-physics::Length field_side(const scene::ParticleSet& set) {
-  auto least = set.particles.front().position, most = least;
-  for (const physics::PlacedParticle& particle : set.particles) {
-    least = {std::min(least.x, particle.position.x), std::min(least.y, particle.position.y)};
-    most = {std::max(most.x, particle.position.x), std::max(most.y, particle.position.y)};
-  }
-  return std::max(most.x - least.x, most.y - least.y) + 2.0 * scene::median_radius(set);
-}
-
-// The set of particles that all steps of the lesson share.
-void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson& lesson) {
-  lesson.particles = top.text("particles", kMostPathLetters);
-  lesson.scale = scene::ScaleMode::Particles;
-  if (top.has("scale")) top.refuse("scale", "is that of the particles in a lesson that has some; leave it out");
-  const auto path = scene::particle_file(lesson.particles, assets_dir);
-  if (!path) top.refuse("particles", path.error().message);
-  auto set = scene::load_particle_set(*path);
-  if (!set) top.refuse("particles", set.error().message);
-  if (set->soft) top.refuse("particles", lesson.particles + " has a soft sample, and no particles to push");
-  if (set->ink) top.refuse("particles", lesson.particles + " has ink, and no particles to push");
-  if (std::any_of(set->setup.species.begin(), set->setup.species.end(), physics::turns_flat)) {
-    top.refuse("particles", lesson.particles + " has rods or islands; a lesson takes spheres alone");
-  }
-  lesson.set = std::make_shared<const scene::ParticleSet>(std::move(*set));
-}
-
-void refuse_push_key(const TomlTable& table, std::string_view key, PushUntil until) {
-  if (table.has(key)) table.refuse(key, fmt::format("is of no use with until = \"{}\"", row_of(until).word));
-}
-
-PushPlan read_push(const TomlTable& table, const scene::ParticleSet& set) {
-  PushPlan plan;
-  plan.until = table.one_of("until", kPushUntils, &PushUntilRow::word).until;
-  if (row_of(plan.until).from_targets && set.targets.empty()) {
-    table.refuse("until", "needs a set of particles with targets");
-  }
-  if (plan.until == PushUntil::Pattern) {
-    refuse_push_key(table, "particle", plan.until);
-  } else {
-    const auto count = static_cast<std::int64_t>(set.particles.size());
-    plan.particle = static_cast<std::size_t>(table.whole("particle", 1, count) - 1);
-    if (set.particles[plan.particle].pinned) table.refuse("particle", "is pinned in its place, so nobody can push it");
-  }
-  if (plan.until == PushUntil::Target) {
-    plan.target = static_cast<std::size_t>(table.whole("target", 1, static_cast<std::int64_t>(set.targets.size())) - 1);
-  } else {
-    refuse_push_key(table, "target", plan.until);
-  }
-  if (plan.until != PushUntil::Moved) {
-    refuse_push_key(table, "distance", plan.until);
-    return plan;
-  }
-  const physics::Length distance = table.quantity("distance", physics::kLengthUnits), most = field_side(set);
-  if (!(distance.si > 0.0) || distance > most) {
-    table.refuse("distance", fmt::format("must be more than 0 and at most {}, the side of the field of the particles",
-                                         physics::format_quantity(most, physics::kLengthUnits, 4)));
-  }
-  plan.distance_m = distance.si;
-  return plan;
-}
-
-bool has_condition(const Lesson& lesson, Condition condition) {
-  return std::find(lesson.conditions.begin(), lesson.conditions.end(), condition) != lesson.conditions.end();
+void refuse_picture(const TomlTable& table, const Lesson& lesson, const LessonStep& step, std::string_view what) {
+  const auto& conditions = lesson.conditions;
+  const bool has_picture = std::find(conditions.begin(), conditions.end(), Condition::Picture) != conditions.end();
+  if (!step.each_condition || !has_picture) return;
+  table.refuse("each_condition", fmt::format("is impossible for {}: the condition picture takes the force away", what));
 }
 
 // The keys of each type, in addition to those of all steps.
@@ -257,6 +197,8 @@ void allow_keys(const TomlTable& table, StepKind kind) {
     case StepKind::Push:
       return table.allow_only(
           {"id", "type", "words", "hint", "hint_after", "each_condition", "until", "particle", "target", "distance"});
+    case StepKind::Write:
+      return table.allow_only({"id", "type", "words", "hint", "hint_after", "each_condition", "lines", "width"});
   }
 }
 
@@ -274,21 +216,11 @@ void read_common(const TomlTable& table, const Lesson& lesson, LessonStep& step)
   }
 }
 
-// With particles, the hand is on their scale, on which the sample's force is not to be judged.
-void refuse_kind_beside_particles(const TomlTable& table, const study::StepKindRow& row, const Lesson& lesson) {
-  if (row.particles == StepBeside::Needed && !lesson.set) {
-    table.refuse("type", fmt::format("{} needs the lesson's particles", row.word));
-  }
-  if (row.particles == StepBeside::Refused && lesson.set) {
-    table.refuse("type", fmt::format("{} is for lessons without particles", row.word));
-  }
-}
-
 LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
   LessonStep step;
   const study::StepKindRow& row = table.one_of("type", kStepKinds, &study::StepKindRow::word);
   step.kind = row.kind;
-  refuse_kind_beside_particles(table, row, lesson);
+  refuse_kind_on_ground(table, row, lesson);
   refuse_kind_beside_tapping(table, row, lesson);
   allow_keys(table, step.kind);
   read_common(table, lesson, step);
@@ -303,10 +235,12 @@ LessonStep read_step(const TomlTable& table, const Lesson& lesson) {
       read_questionnaire(table, step);
       break;
     case StepKind::Push:
-      if (step.each_condition && has_condition(lesson, Condition::Picture)) {
-        table.refuse("each_condition", "is impossible for a push: the condition picture takes the force away");
-      }
+      refuse_picture(table, lesson, step, "a push");
       step.push = read_push(table, *lesson.set);
+      break;
+    case StepKind::Write:
+      refuse_picture(table, lesson, step, "lines to be written");
+      step.lines = std::make_shared<const LinesToWrite>(read_lines(table, *lesson.set));
       break;
     case StepKind::Threshold:
       step.threshold = read_threshold(table);

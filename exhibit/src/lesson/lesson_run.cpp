@@ -24,13 +24,17 @@ constexpr std::array kActivities{
     ActivityRow{StepKind::Text, make_text_activity},           ActivityRow{StepKind::Free, make_cycle_activity},
     ActivityRow{StepKind::Cycle, make_cycle_activity},         ActivityRow{StepKind::Identify, make_identify_activity},
     ActivityRow{StepKind::Threshold, make_threshold_activity}, ActivityRow{StepKind::Draw, make_draw_activity},
-    ActivityRow{StepKind::Question, make_question_activity},   ActivityRow{StepKind::Push, make_push_activity}};
+    ActivityRow{StepKind::Question, make_question_activity},   ActivityRow{StepKind::Push, make_push_activity},
+    ActivityRow{StepKind::Write, make_write_activity}};
 static_assert(core::has_row_for_each(kActivities, &ActivityRow::kind));
 
-// Reason why a cycle or a push with this force does not count.
+// Reason why a cycle, a push or lines with this force do not count.
 Phrase note_of(StepKind kind, HandForce force, HandForce wanted) {
   if (kind == StepKind::Push) {
     return force == HandForce::Reduced ? Phrase::LessonPushWasWeak : Phrase::LessonPushWasOff;
+  }
+  if (kind == StepKind::Write) {
+    return force == HandForce::Reduced ? Phrase::LessonWritingWasWeak : Phrase::LessonWritingWasOff;
   }
   if (wanted == HandForce::None) return Phrase::LessonForceWasOn;
   return force == HandForce::Reduced ? Phrase::LessonForceWasWeak : Phrase::LessonForceWasOff;
@@ -189,7 +193,7 @@ void LessonRun::add(const scene::TipSample& sample, double now_s) {
     unfelt_.reset();
     counted_ = true;
   }
-  if (!activity_->counts_touches() || sample.push.particle == scene::kNoParticle) return;
+  if (!activity_->counts(sample)) return;
   if (force_ != wanted_force()) return repeat_trial(now_s);
   unfelt_.reset();
 }
@@ -197,6 +201,12 @@ void LessonRun::add(const scene::TipSample& sample, double now_s) {
 void LessonRun::look(std::span<const scene::ParticlePage> pages, double now_s) {
   if (end_ || error_ || stage_ != Stage::Steps) return;
   activity_->look(pages, now_s);
+  if (activity_->done()) follow(now_s);
+}
+
+void LessonRun::look_at_marks(std::span<const scene::MarkTile> tiles, double now_s) {
+  if (end_ || error_ || stage_ != Stage::Steps) return;
+  activity_->look_at_marks(tiles, now_s);
   if (activity_->done()) follow(now_s);
 }
 

@@ -212,8 +212,9 @@ void LiveLesson::happened(const scene::TipEvent& event, const servo::ServoClient
 }
 
 void LiveLesson::look(const servo::ServoClient& servo) {
-  if (prompt_.wants != Wants::Push) return;
-  run_.look(servo.particle_pages(), now_s());
+  if (!prompt_.moves_matter()) return;
+  if (prompt_.wants == Wants::Push) run_.look(servo.particle_pages(), now_s());
+  if (prompt_.wants == Wants::Write) run_.look_at_marks(servo.mark_tiles(), now_s());
   acted();
 }
 

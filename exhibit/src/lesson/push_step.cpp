@@ -46,19 +46,14 @@ class PushActivity final : public StepActivity {
     }
     if (!trial_->look(pages)) return;
     done_ = true;
-    const scene::TaskScore& score = trial_->score();
     TrialRow row = trial(now_s);
     row.response = fmt::format("{:.6g}", trial_->result().si);
-    row.rt_s = score.time_s;
-    row.force = true;
-    row.push = PushFigures{.strokes = score.strokes,
-                           .losses = score.losses,
-                           .undos = score.undos,
-                           .work_j = score.work_j,
-                           .largest_lateral_n = score.largest_lateral_n};
+    add_score(trial_->score(), row);
     context_.keep(std::move(row));
   }
-  bool counts_touches() const override { return trial_.has_value() && !done_; }
+  bool counts(const scene::TipSample& sample) const override {
+    return trial_ && !done_ && sample.push.particle != scene::kNoParticle;
+  }
   TrialRow trial(double now_s) const override {
     return {.onset_s = began_s_,
             .duration_s = now_s - began_s_,
@@ -81,6 +76,16 @@ class PushActivity final : public StepActivity {
 };
 
 }  // namespace
+
+void add_score(const scene::TaskScore& score, TrialRow& row) {
+  row.rt_s = score.time_s;
+  row.force = true;
+  row.push = PushFigures{.strokes = score.strokes,
+                         .losses = score.losses,
+                         .undos = score.undos,
+                         .work_j = score.work_j,
+                         .largest_lateral_n = score.largest_lateral_n};
+}
 
 std::unique_ptr<StepActivity> make_push_activity(const StepContext& context, double now_s) {
   AFM_CHECK(context.particles != nullptr);

@@ -14,7 +14,7 @@
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "physics/force_model.h"
-#include "simulated_pusher.h"
+#include "simulated_hand.h"
 
 namespace afm::exhibit {
 
@@ -129,7 +129,8 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
         if (auto felt = feel(run, prompt); !felt) return felt;
         break;
       case LessonPrompt::Wants::Push:
-        if (auto pushed = push(run); !pushed) return pushed;
+      case LessonPrompt::Wants::Write:
+        if (auto taken = take_step(run); !taken) return taken;
         break;
       case LessonPrompt::Wants::Answer: {
         const std::size_t answer = choose(prompt);
@@ -142,13 +143,13 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
   return core::failure(core::ErrorCategory::Failed, "the simulated participant finds no end to this lesson");
 }
 
-core::Result<void> SimulatedStudent::push(LessonRun& run) {
-  if (!pusher_) {
-    auto pusher = SimulatedPusher::create(samples_.front(), *particles_, seed_);
-    if (!pusher) return tl::unexpected(pusher.error());
-    pusher_ = std::move(*pusher);
+core::Result<void> SimulatedStudent::take_step(LessonRun& run) {
+  if (!hand_) {
+    auto hand = SimulatedHand::create(samples_.front(), *particles_, seed_);
+    if (!hand) return tl::unexpected(hand.error());
+    hand_ = std::move(*hand);
   }
-  return pusher_->push(run, now_s_);
+  return hand_->take_step(run, now_s_);
 }
 
 // Feels one cycle with the servo's model, tick by tick; under a lever that taps, with its push at rest.

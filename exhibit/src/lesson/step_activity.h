@@ -15,6 +15,8 @@
 #include "exhibit/lesson/lesson_random.h"
 #include "exhibit/lesson/trial_row.h"
 #include "exhibit/words/phrases.h"
+#include "scene/shared/soft_blocks.h"
+#include "scene/shared/task_score.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
@@ -42,13 +44,14 @@ class StepActivity {
   virtual void answer(std::size_t, double) {}
   virtual void felt(const FeltCycle&, double) {}
 
-  // For a push, and for samples the state of a swing: events and samples of the servo in order, the events of a tick
-  // before its sample; then pages.
+  // For a push or writing, and for samples the state of a swing: events and samples of the servo in order, the events
+  // of a tick before its sample; then pages, or tiles.
   virtual void add(const scene::TipEvent&) {}
   virtual void add(const scene::TipSample&) {}
   virtual void look(std::span<const scene::ParticlePage>, double) {}
-  virtual bool counts_touches() const { return false; }   // touching a particle now belongs to the trial
-  virtual bool waits_for_state() const { return false; }  // needs samples with the condition's force
+  virtual void look_at_marks(std::span<const scene::MarkTile>, double) {}
+  virtual bool counts(const scene::TipSample&) const { return false; }  // its touch belongs to the trial
+  virtual bool waits_for_state() const { return false; }                // needs samples with the condition's force
 
   virtual TrialRow trial(double) const { return {}; }  // the running trial, without its answer
   virtual void reset(double now_s) = 0;                // restarts the running trial
@@ -64,6 +67,10 @@ std::unique_ptr<StepActivity> make_threshold_activity(const StepContext& context
 std::unique_ptr<StepActivity> make_draw_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_question_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_push_activity(const StepContext& context, double now_s);
+std::unique_ptr<StepActivity> make_write_activity(const StepContext& context, double now_s);
+
+// Time and figures of a task that is done.
+void add_score(const scene::TaskScore& score, TrialRow& row);
 
 // Counts practice trials, then counted ones, both from 1.
 class TrialCount {

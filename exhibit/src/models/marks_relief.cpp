@@ -19,15 +19,14 @@ constexpr double kColoursOfRadius = 0.125;
 constexpr std::size_t kSquaresOfVertex = scene::kSoftSide / kReliefSide;
 static_assert(kSquaresOfVertex * kReliefSide == scene::kSoftSide);
 
-// Of a square, by its column and row from the least x and y.
-double square_height_m(std::span<const scene::MarkTile> tiles, std::size_t column, std::size_t row) {
+}  // namespace
+
+double mark_height_m(std::span<const scene::MarkTile> tiles, std::size_t column, std::size_t row) {
   constexpr std::size_t kSide = scene::kTileSide, kAcross = scene::kSoftSide / kSide;
   const scene::MarkTile& tile = tiles[row / kSide * kAcross + column / kSide];
   const std::size_t square = row % kSide * kSide + column % kSide;
   return tile.pressed_m[square] + tile.back_m[square];
 }
-
-}  // namespace
 
 MarksScale marks_scale(const scene::ParticleSet& set) {
   AFM_CHECK(set.soft || set.ink);
@@ -47,8 +46,8 @@ HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, const MarksSca
     for (std::size_t column = 0; column < kReliefSide; ++column) {
       double sum_m = 0.0;
       for (std::size_t i = 0; i < kSquaresOfVertex * kSquaresOfVertex; ++i) {
-        sum_m += square_height_m(tiles, column * kSquaresOfVertex + i % kSquaresOfVertex,
-                                 row * kSquaresOfVertex + i / kSquaresOfVertex);
+        sum_m += mark_height_m(tiles, column * kSquaresOfVertex + i % kSquaresOfVertex,
+                               row * kSquaresOfVertex + i / kSquaresOfVertex);
       }
       heights_m.push_back(sum_m / (kSquaresOfVertex * kSquaresOfVertex));
     }

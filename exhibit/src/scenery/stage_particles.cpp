@@ -17,7 +17,10 @@
 #include "exhibit/models/marks_relief.h"
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/particle_models.h"
+#include "exhibit/scenery/lines_on_sample.h"
 #include "exhibit/scenery/wall_layout.h"
+#include "exhibit/scenery/wall_scene.h"
+#include "exhibit/state/lines_to_write.h"
 #include "physics/manipulation/tip_contact.h"
 #include "scene/samples/particle_set.h"
 #include "servo/live_picture.h"
@@ -36,6 +39,9 @@ constexpr glm::vec3 kTouched{1.35F, 1.3F, 1.1F};
 constexpr double kShortestWay = 0.2;  // shortest way with a footprint, in radii
 constexpr double kDotSpacing = 0.45;  // in radii
 constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
+// Dots along lines that are to be written; distance and size in widths of the groove.
+constexpr std::uint32_t kMostLineDots = 1024;
+constexpr double kLineDotSpacing = 0.6, kLineDotSize = 1.5;
 
 // Sizes of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
 constexpr double kPlanDotSpacing = 0.3, kPlanDotSize = 1.4, kPlanRingSize = 1.8;
@@ -164,7 +170,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   if (build.error()) return;
   scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;
   scene.nodes[dots_].most_copies = most_dots_ * count;
-  scene.nodes[plan_line_].most_copies = kMostDots;
+  scene.nodes[plan_line_].most_copies = scene::leaves_marks(set) ? kMostLineDots : kMostDots;
   scene.nodes[plan_ends_].most_copies = 2;
   scene.nodes[doubts_].most_copies = static_cast<std::uint32_t>(kComputedMark.dots) * std::min(count, kMostMarked);
   scene.nodes[targets_].most_copies = 2 * scene::kMostTargets;
@@ -353,6 +359,27 @@ void StageParticles::add_plan(const ParticlesNow& now, double layout_per_m, rend
   add(ends, to_m, kPlanRingSize);
   frame.copies.push_back(std::move(line));
   frame.copies.push_back(std::move(ends));
+}
+
+void add_lines(const LinesToWrite& lines, const WallScene& wall, render::FrameState& frame) {
+  const auto node = wall.scene().find_node("plan-line/dot");
+  if (!node) return;
+  const double layout_per_m = 1.0 / (wall.unit_m() * wall.drawn_scale(0).sample_m_per_m);
+  const std::size_t most = wall.scene().nodes[*node].most_copies;
+  render::MeshCopies dots{.node = *node, .copies = {}};
+  for (const std::vector<glm::dvec2>& corners_m : lines.lines_m) {
+    for (std::size_t i = 0; i + 1 < corners_m.size(); ++i) {
+      const double length_m = glm::distance(corners_m[i], corners_m[i + 1]);
+      const double gaps = std::max(1.0, std::round(length_m / (kLineDotSpacing * lines.width_m)));
+      for (double dot = 0.0; dot <= gaps && dots.copies.size() < most; dot += 1.0) {
+        const glm::dvec2 place_m = glm::mix(corners_m[i], corners_m[i + 1], dot / gaps);
+        dots.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * kLineDotSize * lines.width_m));
+        dots.copies.back().place.z += static_cast<float>(kReliefLift);  // on the marks
+        dots.copies.back().tint = kPlanned;
+      }
+    }
+  }
+  if (!dots.copies.empty()) frame.copies.push_back(std::move(dots));
 }
 
 }  // namespace afm::exhibit

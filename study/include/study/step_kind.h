@@ -10,12 +10,16 @@ namespace afm::study {
 
 // Types of a lesson's steps, in one table for lesson files, their data, and the study that reads them
 // (docs/adding-a-lesson-step.md).
-enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Push };
+enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Push, Write };
 // What a counted trial is answered with. Comparison: of forces on the hand, so it is right or wrong, and needs the
 // common scale. Number: StudyTrial::value.
 enum class StepAnswer { None, Number, Comparison };
 
-// Use of a step in a lesson with particles, or with a lever that taps.
+// What the tip of a lesson works on: the lesson's materials, the particles on one of them, or a soft sample that it
+// marks. Any: the step goes with each of them.
+enum class StepGround { Any, Materials, Particles, SoftSample };
+
+// Use of a step in a lesson with a lever that taps.
 enum class StepBeside { Allowed, Needed, Refused };
 
 struct StepKindRow {
@@ -25,7 +29,7 @@ struct StepKindRow {
   StepAnswer answer;
   bool open_ended;  // continues until someone ends it
   bool has_cycles;  // the tip snaps in and lets go in each trial
-  StepBeside particles;
+  StepGround ground;
   StepBeside tapping;
 };
 inline constexpr std::array kStepKinds{
@@ -35,7 +39,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::None,
                 .open_ended = false,
                 .has_cycles = false,
-                .particles = StepBeside::Allowed,
+                .ground = StepGround::Any,
                 .tapping = StepBeside::Allowed},
     StepKindRow{.kind = StepKind::Free,
                 .word = "free",
@@ -43,7 +47,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::None,
                 .open_ended = true,
                 .has_cycles = true,
-                .particles = StepBeside::Refused,
+                .ground = StepGround::Materials,
                 .tapping = StepBeside::Allowed},
     StepKindRow{.kind = StepKind::Cycle,
                 .word = "cycle",
@@ -51,7 +55,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::Number,
                 .open_ended = false,
                 .has_cycles = true,
-                .particles = StepBeside::Refused,
+                .ground = StepGround::Materials,
                 .tapping = StepBeside::Refused},
     StepKindRow{.kind = StepKind::Identify,
                 .word = "identify",
@@ -59,7 +63,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::Comparison,
                 .open_ended = false,
                 .has_cycles = true,
-                .particles = StepBeside::Refused,
+                .ground = StepGround::Materials,
                 .tapping = StepBeside::Allowed},
     StepKindRow{.kind = StepKind::Threshold,
                 .word = "threshold",
@@ -67,7 +71,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::Comparison,
                 .open_ended = false,
                 .has_cycles = true,
-                .particles = StepBeside::Refused,
+                .ground = StepGround::Materials,
                 .tapping = StepBeside::Refused},
     StepKindRow{.kind = StepKind::Draw,
                 .word = "draw",
@@ -75,7 +79,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::Number,
                 .open_ended = false,
                 .has_cycles = false,
-                .particles = StepBeside::Allowed,
+                .ground = StepGround::Any,
                 .tapping = StepBeside::Refused},
     StepKindRow{.kind = StepKind::Question,
                 .word = "question",
@@ -83,7 +87,7 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::Number,
                 .open_ended = false,
                 .has_cycles = false,
-                .particles = StepBeside::Allowed,
+                .ground = StepGround::Any,
                 .tapping = StepBeside::Allowed},
     StepKindRow{.kind = StepKind::Push,
                 .word = "push",
@@ -91,7 +95,15 @@ inline constexpr std::array kStepKinds{
                 .answer = StepAnswer::Number,
                 .open_ended = false,
                 .has_cycles = false,
-                .particles = StepBeside::Needed,
+                .ground = StepGround::Particles,
+                .tapping = StepBeside::Refused},
+    StepKindRow{.kind = StepKind::Write,
+                .word = "write",
+                .meaning = "lines to be scratched into a soft sample",
+                .answer = StepAnswer::Number,
+                .open_ended = false,
+                .has_cycles = false,
+                .ground = StepGround::SoftSample,
                 .tapping = StepBeside::Refused}};
 static_assert(core::has_row_for_each(kStepKinds, &StepKindRow::kind));
 constexpr const StepKindRow& row_of(StepKind kind) { return kStepKinds[core::index_of(kind)]; }

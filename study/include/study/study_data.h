@@ -26,13 +26,13 @@ struct StudyTrial {
   int trial = 1;                  // within its step
   std::optional<double> level{};  // w
   std::string stimulus{}, response{};
-  std::optional<double> value{};  // the response of a cycle (newtons), a drawing (0..1), a question or a push (metres)
+  std::optional<double> value{};  // response of a cycle (N), a drawing (0..1), a question, a push or writing (m)
   std::optional<bool> right{};    // identify and threshold only, if there is an answer
   std::optional<double> rt_s{};
-  // on from snap-in to pull-off of each of its cycles, or while a particle was touched; empty: unknown, or none of
-  // these
+  // on from snap-in to pull-off of each of its cycles, or while a particle or a soft sample was touched; empty:
+  // unknown, or none of these
   std::optional<bool> force{};
-  // of a push; SI
+  // of a push, or of writing; SI
   std::optional<double> strokes{}, losses{}, undos{}, work_j{}, largest_force_n{};
   std::string aids{};
 

@@ -52,6 +52,8 @@ glm::dvec2 middle_of(const render::PanelPlacement& target, double aspect) {
 TEST(InstructorActions, ActOnlyWhereTheyTakeNothingFromTheParticipant) {
   EXPECT_THAT(offered(prompt_of(StepKind::Text, Wants::GoOn)),
               ElementsAre(Action::Next, Action::Skip, Action::Stop, Action::HandOff));
+  EXPECT_THAT(offered(prompt_of(StepKind::Write, Wants::Write)),
+              ElementsAre(Action::Skip, Action::Stop, Action::HandOff));
   EXPECT_THAT(offered(prompt_of(StepKind::Free, Wants::Cycle)),
               ElementsAre(Action::Next, Action::Skip, Action::Stop, Action::HandOff));
   for (const StepKind kind : {StepKind::Cycle, StepKind::Identify, StepKind::Question}) {

@@ -47,6 +47,8 @@ TEST_P(LessonFile, IsRefusedByLineAndKey) {
 
 const std::string kFit = "scale = \"fit\"\n", kCommon = "scale = \"common\"\n";
 const std::string kGold = "particles = \"gold-row\"\n", kPush = "type = \"push\"\n";
+const std::string kSoft = "particles = \"scratch-pmma\"\n", kWrite = "type = \"write\"\n";
+const std::string kWidth = "width = \"20 nm\"\n";
 const std::string kTapping = "[tapping]\nfree_amplitude = \"20 nm\"\n";
 const std::string kThreshold = "type = \"threshold\"\nmaterial = \"mica\"\nstaircase = \"weighted\"\n";
 
@@ -101,7 +103,36 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + "particles = \"gold-heap\"\n", "line 5: particles: "},
         Refusal{kHead + "particles = \"tube-and-electrodes\"\n",
                 "line 5: particles: tube-and-electrodes has rods or islands"},
-        Refusal{kHead + "particles = \"scratch-pmma\"\n", "line 5: particles: scratch-pmma has a soft sample"},
+        Refusal{kHead + "particles = \"write-ink\"\n", "line 5: particles: write-ink has ink; a lesson takes spheres"},
+        Refusal{kHead + kSoft + step(kPush + "until = \"pattern\"\n"),
+                "line 9: step.type: push needs particles, and scratch-pmma has a soft sample: use write"},
+        Refusal{kHead + kGold + step(kWrite), "line 9: step.type: write needs a soft sample: particles = "},
+        Refusal{kHead + kFit + step(kWrite), "line 9: step.type: write needs a soft sample"},
+        Refusal{kHead + kSoft + step("type = \"cycle\"\n"),
+                "line 9: step.type: cycle is for lessons without particles"},
+        Refusal{kHead + kSoft + step(kWrite), "step.width: is missing"},
+        Refusal{kHead + kSoft + step(kWrite + "width = \"9 nm\"\n"),
+                "line 10: step.width: must lie between 10 nm and 40 nm, half and twice the radius of the tip"},
+        Refusal{kHead + kSoft + step(kWrite + kWidth + "lines = []\n"),
+                "line 11: step.lines: must be 1 to 20 lines such as"},
+        Refusal{
+            kHead + kSoft + step(kWrite + kWidth + "lines = [[\"0 nm, 0 nm\"]]\n"),
+            "line 11: step.lines: must be lines such as [[\"-50 nm, 0 nm\", \"50 nm, 0 nm\"]], each line with 2 to 20"},
+        Refusal{kHead + kSoft + step(kWrite + kWidth + "lines = [[\"0 nm, 0 nm\", 3]]\n"),
+                "line 11: step.lines: must be lines such as"},
+        Refusal{kHead + kSoft + step(kWrite + kWidth + "lines = [[\"0 nm, 0 nm\", \"80 nm, 0 N\"]]\n"),
+                "line 11: step.lines: "},
+        Refusal{kHead + kSoft + step(kWrite + kWidth + "lines = [[\"0 nm, 0 nm\", \"300 nm, 0 nm\"]]\n"),
+                "line 11: step.lines: 300 nm, 0 nm is beyond the sample, on which the tip may be up to 276 nm from"},
+        Refusal{kHead + kSoft + step(kWrite + kWidth + "lines = [[\"0 nm, 0 nm\", \"79 nm, 0 nm\"]]\n"),
+                "line 11: step.lines: line 1 has a part shorter than 80 nm, four times its width"},
+        Refusal{kHead + kSoft +
+                    step(kWrite + kWidth +
+                         "lines = [[\"-100 nm, 0 nm\", \"100 nm, 0 nm\"], [\"-40 nm, 9 nm\", \"40 nm, 9 nm\"]]\n"),
+                "line 11: step.lines: line 2 is nowhere 40 nm or more from all other parts"},
+        Refusal{kHead + kSoft + "conditions = [\"both\", \"picture\"]\n" +
+                    step(kWrite + kWidth + "lines = [[\"0 nm, 0 nm\", \"80 nm, 0 nm\"]]\neach_condition = true\n"),
+                "each_condition: is impossible for lines to be written: the condition picture takes the force away"},
         Refusal{kHead + kGold + kFit, "line 6: scale: is that of the particles"},
         Refusal{kHead + kGold + step("type = \"cycle\"\n"),
                 "line 9: step.type: cycle is for lessons without particles"},
@@ -233,7 +264,7 @@ std::vector<std::string> shipped_lessons() {
   return paths;
 }
 
-TEST(ShippedLessons, AreEightThatLoadAndRunToTheirEndInBothLanguages) {
+TEST(ShippedLessons, AreNineThatLoadAndRunToTheirEndInBothLanguages) {
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   std::set<StepKind> kinds;
   std::size_t lessons = 0;
@@ -261,7 +292,7 @@ TEST(ShippedLessons, AreEightThatLoadAndRunToTheirEndInBothLanguages) {
     }
     ++lessons;
   }
-  EXPECT_EQ(lessons, 8U);
+  EXPECT_EQ(lessons, 9U);
   EXPECT_EQ(kinds.size(), kStepKinds.size()) << "the lessons show every type of step";
 }
 

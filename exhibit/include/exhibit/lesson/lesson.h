@@ -24,6 +24,7 @@ struct ParticleSet;
 
 namespace afm::exhibit {
 
+struct LinesToWrite;
 using study::kStepKinds;
 using study::StepKind;
 
@@ -104,6 +105,8 @@ struct LessonStep {
   ThresholdPlan threshold;
   Questionnaire questionnaire = Questionnaire::Paper;
   PushPlan push;
+  // lines of Write, not null there; shared, since a lesson is copied
+  std::shared_ptr<const LinesToWrite> lines;
 };
 
 // Content of a lesson file. Const after loading; any thread.
@@ -114,7 +117,7 @@ struct Lesson {
   std::vector<std::string> materials;
   scene::ScaleMode scale = scene::ScaleMode::Fit;  // Particles exactly if there are particles
   std::string particles;                           // as in ExhibitFiles; empty: none
-  // those particles, all of them spheres; null: none; shared, since a lesson is copied
+  // those particles, all of them spheres, or that soft sample; null: none; shared, since a lesson is copied
   std::shared_ptr<const scene::ParticleSet> set;
   // its lever, if that taps; then there are no particles; null: it does not; shared, since a lesson is copied
   std::shared_ptr<const curves::TappedHand> tapping;

@@ -20,7 +20,7 @@ struct FeltCycle {
 
 // The current request to the participant.
 struct LessonPrompt {
-  enum class Wants { GoOn, Cycle, Push, Answer, Nothing };
+  enum class Wants { GoOn, Cycle, Push, Write, Answer, Nothing };
   Wants wants = Wants::GoOn;
   std::string title, words, hint, progress;     // the hint is empty until it is due
   std::vector<std::string> answers;             // used with Wants::Answer; more than nine are a scale
@@ -33,9 +33,12 @@ struct LessonPrompt {
   bool hidden = false;                          // names, curves, figures and sounds would reveal the answer
   bool of_states = false;                       // hidden state of a swing, to be judged by its tones, too
   std::optional<Condition> condition;
-  bool put_back = false;  // all particles are to be put back to their start before the push
+  bool put_back = false;  // all particles are to be put back to their start, or a soft sample is to be level
+  const LinesToWrite* lines = nullptr;  // to be written; those of the lesson; null: none
 
-  bool by_hand() const { return wants == Wants::Cycle || wants == Wants::Push; }
+  bool by_hand() const { return wants == Wants::Cycle || moves_matter(); }
+  // The tip's motion on the sample is judged.
+  bool moves_matter() const { return wants == Wants::Push || wants == Wants::Write; }
   // for a simulated participant
   StepKind kind = StepKind::Text;
   std::string item;       // id of a questionnaire's item

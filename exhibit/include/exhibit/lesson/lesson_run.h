@@ -16,6 +16,7 @@
 #include "exhibit/lesson/lesson_random.h"
 #include "exhibit/lesson/trial_row.h"
 #include "exhibit/words/phrases.h"
+#include "scene/shared/soft_blocks.h"
 #include "scene/shared/tip_blocks.h"
 
 namespace afm::exhibit {
@@ -60,12 +61,14 @@ class LessonRun {
   // Handles a jump of the tip on the prompt's material and variant.
   void happened(const scene::TipEvent& event, double now_s);
 
-  // A push: takes the servo's events of particles and samples in order, the events of a tick before its sample, and
-  // after them the newest pages. A push counts only if the full force was on the hand in every tick in which the tip
-  // touched a particle; otherwise it begins again, with all particles at their start.
+  // A push, or lines to be written: takes the servo's events of particles and samples in order, the events of a tick
+  // before its sample, and after them the newest pages, or the kMarkTiles newest tiles. A push counts only if the full
+  // force was on the hand in every tick in which the tip touched a particle, or the soft sample; otherwise it begins
+  // again, with all particles at their start, or a level sample.
   void add(const scene::TipEvent& event);
   void add(const scene::TipSample& sample, double now_s);
   void look(std::span<const scene::ParticlePage> pages, double now_s);
+  void look_at_marks(std::span<const scene::MarkTile> tiles, double now_s);
 
   // Offers a break once it is due. With a real participant, call once a frame.
   void watch_time(double now_s);

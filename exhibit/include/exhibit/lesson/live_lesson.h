@@ -89,11 +89,11 @@ class LiveLesson {
   // Handles an event of the tip on the servo's current sample: a jump, or what it does to a particle.
   void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
 
-  // Call once a frame with the newest particles, after the servo's events and samples.
+  // Call once a frame with the newest particles or marks, after the servo's events and samples.
   void look(const servo::ServoClient& servo);
 
-  // True if all particles must be put back before the current push. Once there is no force, request it whenever the
-  // second function returns true, at most once a second.
+  // True if all particles must be put back before the current push, or all marks taken away before lines are written.
+  // Once there is no force, request it whenever the second function returns true, at most once a second.
   bool needs_particles_back() const { return prompt_.put_back; }
   bool orders_particles_back();
 

@@ -17,7 +17,7 @@
 
 namespace afm::exhibit {
 
-class SimulatedPusher;
+class SimulatedHand;
 
 // An observer with known abilities (equal-variance Gaussian), which a report of its data must recover.
 struct Abilities {
@@ -37,8 +37,8 @@ struct SimulatedParticipant {
 };
 
 // Takes a whole lesson in simulated time: feels each cycle with the real force law at the lesson's scale and answers
-// from the felt forces. Pushes particles with a delay of 0.25 s and a tremor of 0.3 mm. Repeatable for a seed on the
-// same build. One thread.
+// from the felt forces. Pushes particles and writes lines with a delay of 0.25 s and a tremor of 0.3 mm. Repeatable for
+// a seed on the same build. One thread.
 class SimulatedStudent {
  public:
   // Lesson and samples must outlive the object.
@@ -51,7 +51,7 @@ class SimulatedStudent {
 
  private:
   core::Result<void> feel(LessonRun& run, const LessonPrompt& prompt);
-  core::Result<void> push(LessonRun& run);
+  core::Result<void> take_step(LessonRun& run);  // a push, or lines
   std::size_t choose(const LessonPrompt& prompt);
   std::size_t rate(const LessonPrompt& prompt);  // answers an item without a right answer
   std::size_t stronger_of_two();
@@ -65,7 +65,7 @@ class SimulatedStudent {
   LessonRandom random_;
   physics::NormalGenerator normal_;
   haptics::CommonScale common_;
-  std::unique_ptr<SimulatedPusher> pusher_;  // from the first push on
+  std::unique_ptr<SimulatedHand> hand_;  // from the first push or line on
   double now_s_ = 0;
   double felt_n_[2] = {0, 0};  // forces on the hand in the last two cycles, the newer one second
 };

@@ -11,11 +11,12 @@
 
 namespace afm::exhibit {
 
-// Details of a push, in addition to the response. Work and force are those of scene::TaskScore.
+// Details of a push, or of lines that were written, in addition to the response. Work and force are those of
+// scene::TaskScore.
 struct PushFigures {
   std::uint32_t strokes = 0, losses = 0, undos = 0;
   double work_j = 0, largest_lateral_n = 0;
-  bool truth = true;  // the wall showed where the particles were
+  bool truth = true;  // the wall showed particles and marks
 };
 
 // A line of events.tsv: a finished trial. Empty texts and missing values are written as n/a.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "exhibit/models/relief.h"
@@ -21,6 +22,10 @@ struct MarksScale {
 
 // For a soft sample an eighth of the tip's radius, for ink the thickness of its layer. `set` has one of them.
 MarksScale marks_scale(const scene::ParticleSet& set);
+
+// Height of a square without load, metres from the level sample; column and row count from the least x and y, and are
+// less than kSoftSide. `tiles` are kMarkTiles.
+double mark_height_m(std::span<const scene::MarkTile> tiles, std::size_t column, std::size_t row);
 
 // Marks, kMarkTiles of them, without load: in true proportions, each vertex the mean of 2 x 2 squares.
 HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, const MarksScale& scale);

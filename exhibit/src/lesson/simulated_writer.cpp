@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulated_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "exhibit/state/lines_to_write.h"
+#include "scene/samples/particle_set.h"
+#include "scene/samples/scratch_run.h"
+
+namespace afm::exhibit {
+
+namespace {
+
+constexpr int kMostDrawSteps = 5000;  // limit for one part of a line
+constexpr double kPressPerS = 2.0;    // share of the felt error of the load that the hand corrects
+constexpr double kFastestM = 2e-4;    // change of the height between two commands, at most
+constexpr double kTouchMPerS = 6e-3;  // speed of the hand while it comes down on the sample
+
+class WritingHand final : public SimulatedHand {
+ public:
+  WritingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed)
+      : SimulatedHand(set, std::move(servo), seed) {}
+
+ private:
+  void attempt(const LessonPrompt& prompt) override;
+  void press();
+  void draw_to(const glm::dvec2& from_m, const glm::dvec2& to_m);
+  glm::dvec2 tip_m() const;
+
+  double load_n_ = 0;  // to be pressed with
+  std::size_t begun_ = 0;
+  bool tried_ = false;
+};
+
+// All lines; if that was not well enough, all of them again on the level sample.
+void WritingHand::attempt(const LessonPrompt& prompt) {
+  if (std::exchange(begun_, prompt.task + 1) == prompt.task + 1 && tried_) put_back();
+  tried_ = true;
+  // half of the contact bears a tip that is dragged: 2 F = pi H (w/2)^2
+  const double half_m = 0.5 * prompt.lines->width_m;
+  load_n_ = 0.5 * std::numbers::pi * set().soft->surface.hardness.si * half_m * half_m;
+  for (const std::vector<glm::dvec2>& corners_m : prompt.lines->lines_m) {
+    go(m_per_m() * corners_m.front(), high_m(), kWayMPerS);
+    press();
+    for (std::size_t i = 1; i < corners_m.size(); ++i) draw_to(corners_m[i - 1], corners_m[i]);
+    lift();
+    rest(1.0);
+  }
+}
+
+// Comes down until the load is felt.
+void WritingHand::press() {
+  const double lowest_m = -high_m();
+  while (push().lift_n < load_n_ && height_m() > lowest_m) step(at_m(), height_m() - kCommandS * kTouchMPerS);
+}
+
+void WritingHand::draw_to(const glm::dvec2& from_m, const glm::dvec2& to_m) {
+  const glm::dvec2 along = glm::normalize(to_m - from_m), aside(-along.y, along.x);
+  std::deque<glm::dvec2> seen_m{tip_m()};
+  for (int i = 0; i < kMostDrawSteps; ++i) {
+    const glm::dvec2 there_m = seen_m.front();
+    if (glm::dot(to_m - there_m, along) < kDrawMPerS / m_per_m() * kSeenAfterS) break;
+    const double off_m = m_per_m() * glm::dot(there_m - from_m, aside);
+    const scene::TipPush now = push();
+    // the height by which a softer or harder lever changes the load
+    const double spring_n_per_m = set().setup.springs.normal.si / now.softened_upwards;
+    const double down_m = kCommandS * kPressPerS * m_per_m() * (load_n_ - now.lift_n) / spring_n_per_m;
+    step(at_m() + kCommandS * (kDrawMPerS * along - kSteerPerS * off_m * aside),
+         height_m() - std::clamp(down_m, -kFastestM, kFastestM));
+    seen_m.push_back(tip_m());
+    if (seen_m.size() > kSeenAfter) seen_m.pop_front();
+  }
+}
+
+glm::dvec2 WritingHand::tip_m() const {
+  const scene::TipPush now = push();
+  return {now.apex_m[0], now.apex_m[1]};
+}
+
+}  // namespace
+
+std::unique_ptr<SimulatedHand> make_writing_hand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo,
+                                                 std::uint64_t seed) {
+  return std::make_unique<WritingHand>(set, std::move(servo), seed);
+}
+
+}  // namespace afm::exhibit
