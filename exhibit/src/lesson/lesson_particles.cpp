@@ -53,7 +53,7 @@ void refuse_push_key(const TomlTable& table, std::string_view key, PushUntil unt
 glm::dvec2 read_corner(const TomlTable& table, const toml::node& node, double reach_m) {
   const auto text = node.value<std::string_view>();
   const std::size_t comma = text ? text->find(',') : std::string_view::npos;
-  if (comma == std::string_view::npos) table.refuse("lines", fmt::format("must be {}", kLinesLike));
+  if (!text || comma == std::string_view::npos) table.refuse("lines", fmt::format("must be {}", kLinesLike));
   const auto coordinate_m = [&](std::string_view part) {
     const auto read = physics::parse_quantity(part, physics::kLengthUnits);
     if (!read.value) table.refuse("lines", read.error);

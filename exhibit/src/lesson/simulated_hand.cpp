@@ -72,7 +72,7 @@ core::Result<std::unique_ptr<SimulatedHand>> SimulatedHand::create(const curves:
   return hand;
 }
 
-SimulatedHand::SimulatedHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo, std::uint64_t seed)
+SimulatedHand::SimulatedHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed)
     : set_(set),
       servo_(std::move(servo)),
       pages_(scene::pages_of(static_cast<std::uint32_t>(set.particles.size()))),

@@ -50,7 +50,7 @@ class SimulatedHand {
   static constexpr double kSteerPerS = 2.0;      // share of the seen error that the hand corrects
   static constexpr std::size_t kSeenAfter = 13;  // commands of the hand in kSeenAfterS
 
-  SimulatedHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo, std::uint64_t seed);
+  SimulatedHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed);
 
   // One more try, or a rest if there is nothing to do.
   virtual void attempt(const LessonPrompt& prompt) = 0;

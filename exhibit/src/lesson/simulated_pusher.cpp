@@ -36,7 +36,7 @@ double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::
 
 class PushingHand final : public SimulatedHand {
  public:
-  PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo, std::uint64_t seed);
+  PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed);
 
  private:
   void attempt(const LessonPrompt& prompt) override;
@@ -53,7 +53,7 @@ class PushingHand final : public SimulatedHand {
   std::optional<glm::dvec2> end_m_;  // place to which the particle of this task is to go
 };
 
-PushingHand::PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo, std::uint64_t seed)
+PushingHand::PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed)
     : SimulatedHand(set, std::move(servo), seed) {
   for (const physics::ParticlePlace& target : scene::shared_targets(set)) {
     targets_m_.emplace_back(target.position.x.si, target.position.y.si);
@@ -160,7 +160,7 @@ double PushingHand::radius_m(std::size_t particle) const {
 
 }  // namespace
 
-std::unique_ptr<SimulatedHand> make_pushing_hand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo,
+std::unique_ptr<SimulatedHand> make_pushing_hand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo,
                                                  std::uint64_t seed) {
   return std::make_unique<PushingHand>(set, std::move(servo), seed);
 }

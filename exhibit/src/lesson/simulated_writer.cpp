@@ -25,7 +25,7 @@ constexpr double kTouchMPerS = 6e-3;  // speed of the hand while it comes down o
 
 class WritingHand final : public SimulatedHand {
  public:
-  WritingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo, std::uint64_t seed)
+  WritingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed)
       : SimulatedHand(set, std::move(servo), seed) {}
 
  private:
@@ -86,7 +86,7 @@ glm::dvec2 WritingHand::tip_m() const {
 
 }  // namespace
 
-std::unique_ptr<SimulatedHand> make_writing_hand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo> servo,
+std::unique_ptr<SimulatedHand> make_writing_hand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo,
                                                  std::uint64_t seed) {
   return std::make_unique<WritingHand>(set, std::move(servo), seed);
 }

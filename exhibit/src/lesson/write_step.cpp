@@ -41,8 +41,8 @@ class WriteActivity final : public StepActivity {
     const LinesToWrite& lines = *context_.step.lines;
     prompt.wants = LessonPrompt::Wants::Write;
     prompt.words = context_.words();
-    if (trial_ && trial_->fault()) {
-      prompt.words = words_of(*trial_->fault(), trial_->written(), lines, context_.phrases) + " " + prompt.words;
+    if (const auto fault = trial_ ? trial_->fault() : std::nullopt) {
+      prompt.words = words_of(*fault, trial_->written(), lines, context_.phrases) + " " + prompt.words;
     }
     prompt.lines = &lines;
     prompt.material = 0;

@@ -39,8 +39,9 @@ constexpr glm::vec3 kTouched{1.35F, 1.3F, 1.1F};
 constexpr double kShortestWay = 0.2;  // shortest way with a footprint, in radii
 constexpr double kDotSpacing = 0.45;  // in radii
 constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
-constexpr std::uint32_t kMostLineDots = 1024;                // along lines that are to be written
-constexpr double kLineDotSpacing = 0.6, kLineDotSize = 1.5;  // of these, in widths of the groove
+// Dots along lines that are to be written; distance and size in widths of the groove.
+constexpr std::uint32_t kMostLineDots = 1024;
+constexpr double kLineDotSpacing = 0.6, kLineDotSize = 1.5;
 
 // Sizes of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
 constexpr double kPlanDotSpacing = 0.3, kPlanDotSize = 1.4, kPlanRingSize = 1.8;
@@ -89,6 +90,12 @@ std::vector<Placed> placed(const scene::ParticleSet& set) {
 
 // Way from the middle of a rod to its front end, over half its length.
 glm::dvec2 axis_of(const physics::HalfTurn& turn) { return {turn.w * turn.w - turn.z * turn.z, 2.0 * turn.w * turn.z}; }
+
+// Without a picture the particles themselves are shown.
+servo::Known known(const ParticlesNow& now, std::size_t particle) {
+  const bool told = now.picture != nullptr && particle < now.picture->known.size();
+  return told ? now.picture->known[particle] : servo::Known::Measured;
+}
 
 // On the sample, in layout units.
 render::MeshCopy mark_at(const glm::dvec2& place, double size) {
@@ -251,7 +258,7 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
       const auto& [w, x, y, z] = pose->orientation;
       copy.turn = glm::vec4(glm::dvec4(x, y, z, w));
     }
-    const bool stale = now != nullptr && known_of(*now, i) == servo::Known::Stale;
+    const bool stale = now != nullptr && known(*now, i) == servo::Known::Stale;
     copy.tint =
         glm::vec4((stale ? kStaleShade : 1.0F) * (pushed == i ? kTouched * particle.color : particle.color), 1.0F);
     (flat_[particle.species] ? flat[particle.species] : spheres).copies.push_back(copy);
@@ -317,7 +324,7 @@ void StageParticles::add_doubts(const ParticlesNow& now, double layout_per_m, re
   render::MeshCopies dots{.node = doubts_, .copies = {}};
   std::uint32_t marked = 0;
   for (std::size_t i = 0; i < particles_.size() && marked < kMostMarked; ++i) {
-    const servo::Known state = known_of(now, i);
+    const servo::Known state = known(now, i);
     const auto pose = pose_of(now, i);
     if (state == servo::Known::Measured || !pose) continue;
     ++marked;
