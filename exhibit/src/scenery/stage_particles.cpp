@@ -91,12 +91,6 @@ std::vector<Placed> placed(const scene::ParticleSet& set) {
 // Way from the middle of a rod to its front end, over half its length.
 glm::dvec2 axis_of(const physics::HalfTurn& turn) { return {turn.w * turn.w - turn.z * turn.z, 2.0 * turn.w * turn.z}; }
 
-// Without a picture the particles themselves are shown.
-servo::Known known(const ParticlesNow& now, std::size_t particle) {
-  const bool told = now.picture != nullptr && particle < now.picture->known.size();
-  return told ? now.picture->known[particle] : servo::Known::Measured;
-}
-
 // On the sample, in layout units.
 render::MeshCopy mark_at(const glm::dvec2& place, double size) {
   return {.place = glm::vec3(dvec3(place, 0.0)), .scale = static_cast<float>(size)};
@@ -258,7 +252,7 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
       const auto& [w, x, y, z] = pose->orientation;
       copy.turn = glm::vec4(glm::dvec4(x, y, z, w));
     }
-    const bool stale = now != nullptr && known(*now, i) == servo::Known::Stale;
+    const bool stale = now != nullptr && known_of(*now, i) == servo::Known::Stale;
     copy.tint =
         glm::vec4((stale ? kStaleShade : 1.0F) * (pushed == i ? kTouched * particle.color : particle.color), 1.0F);
     (flat_[particle.species] ? flat[particle.species] : spheres).copies.push_back(copy);
@@ -324,7 +318,7 @@ void StageParticles::add_doubts(const ParticlesNow& now, double layout_per_m, re
   render::MeshCopies dots{.node = doubts_, .copies = {}};
   std::uint32_t marked = 0;
   for (std::size_t i = 0; i < particles_.size() && marked < kMostMarked; ++i) {
-    const servo::Known state = known(now, i);
+    const servo::Known state = known_of(now, i);
     const auto pose = pose_of(now, i);
     if (state == servo::Known::Measured || !pose) continue;
     ++marked;
