@@ -353,8 +353,8 @@ std::vector<RestingTap> AveragedFlow::resting_at(Length z, Roots roots) {
   };
   const auto add_between = [&](const Sample& one, const Sample& other) {
     const RestingTap tap = root_between(one, other, z.si);
-    // without the bend its forces are not those of a swing
-    if (!has_shape_ && !is_as_felt()) return;
+    // without the bend its forces may not be those of a swing
+    if (!has_shape_ && !is_as_felt() && abs(tap.deflection) > lever_.free_amplitude) return;
     const bool again =
         (!taps.empty() && abs(taps.back().state.amplitude - tap.state.amplitude) < kSame * tap.state.amplitude) ||
         found_again(tap);
