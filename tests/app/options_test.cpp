@@ -87,7 +87,7 @@ TEST_F(OptionsTest, WhatIsWrongIsSaidWithWhatToWriteInstead) {
   EXPECT_EQ(wrong({"draw", "--model", "a", "--file", "b"}),
             "give only one of --model, --file; see program draw --help");
   EXPECT_EQ(wrong({"wall"}), "the argument place is missing; see program wall --help");
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"drow"}, {"drow", "--width", "3"}}) {
+  for (const auto& words : {std::vector<const char*>{"drow"}, {"drow", "--width", "3"}}) {
     EXPECT_EQ(wrong(words), "program has no command \"drow\" (did you mean draw?); see program --help");
   }
   EXPECT_EQ(wrong({}), "program needs one of its commands: draw, wall; see program --help");

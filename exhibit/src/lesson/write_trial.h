@@ -31,7 +31,7 @@ class WriteTrial {
   const scene::TaskScore& score() const { return task_.score(); }
   const WrittenLines& written() const { return written_; }  // as judged last
 
-  // What kept the lines from being done when they were judged last; nothing before.
+  // Fault for which the lines were not done when they were judged last; nothing before.
   std::optional<WritingFault> fault() const { return fault_; }
 
  private:

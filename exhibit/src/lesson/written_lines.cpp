@@ -99,7 +99,7 @@ class MarkHeights {
                     glm::mix(height_m(column, row + 1), height_m(column + 1, row + 1), share.x), share.y);
   }
 
-  // Whether a mark has its middle within that distance of the place.
+  // True if a mark has its middle within that distance of the place.
   bool has_mark_near(const dvec2& place_m, double within_m) const {
     const auto first = [&](double at_m) {
       return static_cast<std::size_t>(std::max(0.0, std::ceil((at_m - within_m - first_m_) / spacing_m_)));

@@ -23,13 +23,13 @@ struct WrittenLines {
 inline constexpr double kOutsideWidths = 2.0;
 inline constexpr double kWidthTolerance = 0.2;  // share of the wanted width
 
-// What keeps lines from being done.
+// Fault for which lines are not done.
 enum class WritingFault { MarksOutside, TooNarrow, TooWide, LinesLeft };
 
 // Such as "20 nm".
 std::string length_words(double length_m);
 
-// Whether a line has a place whose groove can be measured: a width or more from the ends of its straight part, and two
+// True if a line has a place whose groove can be measured: a width or more from the ends of its straight part, and two
 // from every other part. `line` is its number in `lines`.
 bool can_be_measured(const LinesToWrite& lines, std::size_t line, double tip_radius_m);
 

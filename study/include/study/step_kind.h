@@ -15,8 +15,8 @@ enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Pu
 // common scale. Number: StudyTrial::value.
 enum class StepAnswer { None, Number, Comparison };
 
-// What the tip of a lesson works on: the lesson's materials, the particles on one of them, or a soft sample that it
-// marks. Any: the step goes with each of them.
+// Ground on which the tip of a lesson works: the lesson's materials, the particles on one of them, or a soft sample
+// that it marks. Any: the step goes with each of them.
 enum class StepGround { Any, Materials, Particles, SoftSample };
 
 // Use of a step in a lesson with a lever that taps.

@@ -92,7 +92,7 @@ class LiveLesson {
   // Call once a frame with the newest particles or marks, after the servo's events and samples.
   void look(const servo::ServoClient& servo);
 
-  // True if all particles must be put back before the current push, or all marks taken away before lines are written.
+  // True if all particles must be put back before the current push, or all marks removed before lines are written.
   // Once there is no force, request it whenever the second function returns true, at most once a second.
   bool needs_particles_back() const { return prompt_.put_back; }
   bool orders_particles_back();
