@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <memory>
 #include <string>
 #include <vector>
