@@ -342,7 +342,8 @@ TEST(CommandLine, ListsTheLegalValuesOfAChoiceThatIsNone) {
   expect_refusal(run_touchafm("demo --out /tmp/x --model paper-rule"), 2, "cannot feel model \"paper-rule\"");
   expect_refusal(run_touchafm("analyse x.tab --spring-constant 0.1nm"), 2, "--spring-constant: ");
   expect_refusal(run_touchafm("analyse x.tab --spring-constant -1N/m"), 2, "is outside");
-  expect_refusal(run_touchafm("analyse x.tab --sensitivity 70nm"), 2, "\"nm\" is not its unit; write a number and one of the units um/V");
+  expect_refusal(run_touchafm("analyse x.tab --sensitivity 70nm"), 2,
+                 "\"nm\" is not its unit; write a number and one of the units um/V");
 }
 
 TEST(CommandLine, RefusesALeverThatCannotBeCalibrated) {
