@@ -49,8 +49,18 @@ file(WRITE ${tree}/made/include/made/chain0.h "#include \"made/chain61.h\"\n")
 expect(header_reach "include each other")
 expect(include_cycles "include each other")
 
-# two folders of equal size: each has more than its share
+# a public header that includes one of another folder
 file(WRITE ${tree}/other/CMakeLists.txt "afm_module(other)\n")
+file(WRITE ${tree}/other/include/other/three.h "#pragma once\n")
+file(WRITE ${tree}/made/include/made/high/two.h "#include \"other/three.h\"\n")
+file(WRITE ${tree}/made/CMakeLists.txt "afm_module(made PRIVATE afm::other)\n")
+expect(public_links "made does not link other with PUBLIC")
+file(WRITE ${tree}/made/CMakeLists.txt "afm_module(made COLD PUBLIC afm::other PRIVATE fmt::fmt)\n")
+expect(public_links "")
+file(WRITE ${tree}/made/CMakeLists.txt "afm_module(made)\n")
+file(WRITE ${tree}/made/include/made/high/two.h "#pragma once\n")
+
+# two folders of equal size: each has more than its share
 file(WRITE ${tree}/other/src/long.cpp "// 1\n// 2\n// 3\n")
 expect(sizes "production lines are")
 
