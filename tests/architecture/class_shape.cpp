@@ -15,9 +15,9 @@ namespace {
 struct Declaration {
   std::string first;       // word
   int commas = 0;          // between declarators
-  int angles = 0;          // open
+  int angles = 0;          // open angle brackets
   bool call = false;       // parameters of a function
-  bool value = false;      // after =
+  bool value = false;      // part after =
   bool fixed = false;      // static
   bool operation = false;  // operator
   bool members = false;    // initialisers of a constructor

@@ -145,7 +145,7 @@ std::unique_ptr<Staircase> make_staircase(const ThresholdPlan& plan) {
       return std::make_unique<QuestStaircase>(QuestStaircase::Rule{
           .guess = start, .guess_sd = 0.5, .share = 0.75, .range = 4.0, .least = least, .most = most});
   }
-  constexpr double kKaernbach = 3;  // converges to 75 % right answers, the criterion of the 7 % threshold for forces
+  constexpr double kKaernbach = 3;  // ratio for 75 % right answers, the criterion of the 7 % threshold for forces
   return std::make_unique<WeightedStaircase>(
       start, WeightedStaircase::Rule{.step = step, .weight = kKaernbach, .least = least, .most = most});
 }

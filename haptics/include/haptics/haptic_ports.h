@@ -23,7 +23,7 @@ struct HapticPort {
   std::string path;    // in /dev
   std::string device;  // "Touch"; empty for a serial port of an unknown device
   HapticBus bus = HapticBus::Serial;
-  bool accessible = false;  // the current user may read and write it
+  bool accessible = false;  // read and write access of the current user
   std::string group;        // the file's, whose members may open it; empty: unknown, or root's
 };
 
