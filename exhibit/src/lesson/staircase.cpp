@@ -102,19 +102,6 @@ void QuestStaircase::answer(bool right) {
   level_ = std::clamp(quantile(), rule_.least, rule_.most);
 }
 
-double QuestStaircase::mean() const {
-  double sum = 0, weighted = 0;
-  for (std::size_t i = 0; i < density_.size(); ++i) {
-    sum += density_[i];
-    weighted += density_[i] * at(i);
-  }
-  return weighted / sum;
-}
-
-double QuestStaircase::mode() const {
-  return at(static_cast<std::size_t>(std::max_element(density_.begin(), density_.end()) - density_.begin()));
-}
-
 double QuestStaircase::quantile() const {
   double sum = 0;
   for (const double density : density_) sum += density;
