@@ -25,7 +25,7 @@ namespace lab_curves_test {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kFourDigits = 1e-4;  // relative
+constexpr double kFourDigits = 1e-4;  // relative tolerance
 
 std::string path_of(const std::string& name) { return support::source("tests/data/afm/" + name); }
 

@@ -68,11 +68,6 @@ std::optional<DirectSwing> SwingMap::settled_near(Point at, Length z) {
   return swing;
 }
 
-std::optional<DirectSwing> SwingMap::rest_near(const TapState& point, Length z) {
-  const auto fixed = fixed_near(map_point_of(point), z);
-  return fixed && fixed->stable ? settled_near(fixed->at, z) : std::nullopt;
-}
-
 std::vector<SwingMap::Point> SwingMap::stable_points(Length z) {
   constexpr int kAmplitudes = 8, kPhases = 8, kRounds = 8;
   constexpr int kShares = 16;
