@@ -75,7 +75,7 @@ TEST(GsfImage, WithoutXRealIsOneWideAndSidesCountByTheirAbsoluteValue) {
 
 TEST(GsfImage, SaysThatSidesWithoutAUnitAreTakenAsMetres) {
   for (const char* unit : {"", "XYUnits = \n"}) {
-    const std::string bytes = gsf_file(std::string("XRes = 2\nYRes = 2\nXReal = 0.5\n") + unit, {1, 2, 3, 4});
+    const std::string bytes = gsf_file(std::string("XRes=2\nYRes=2\nXReal=1\nYReal=1\n") + unit, {1, 2, 3, 4});
     EXPECT_THAT(loaded(bytes).remarks, testing::ElementsAre(HasSubstr("taken as metres"))) << unit;
   }
   EXPECT_THAT(loaded(gsf_file(kGsfLines, {0, 1, 2, 3, 4, 5})).remarks, testing::IsEmpty());
