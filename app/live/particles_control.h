@@ -85,6 +85,9 @@ class ParticlesControl final : public ViewControl {
   // Announces that the pattern is done.
   void follow_task();
 
+  // Hides the picture of a blind task, and announces that its particle is far enough.
+  void follow_blind();
+
   // Shows the set with the settings that the servo uses, and announces them once they are others.
   void follow_settings();
 
@@ -108,8 +111,9 @@ class ParticlesControl final : public ViewControl {
   scene::PushSettings settings_{};             // settings in use, as far as announced
   std::optional<std::size_t> marked_;          // index into kPushSettings, or its size: the load of a look
   std::size_t look_load_ = 0;                  // index into the loads
+  bool far_enough_ = false;                    // announced
   bool sweeps_ = false;                        // true: the servo has been informed of a look
-  std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
+  std::optional<exhibit::ParticleTask> task_;  // only for a set with a task
 };
 
 }  // namespace afm::app

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "exhibit/state/particles_now.h"
+#include "physics/manipulation/particle_friction.h"
 #include "scene/samples/pattern_state.h"
 #include "servo/live_picture.h"
 #include "servo/recorded_servo.h"
@@ -93,12 +94,61 @@ class Person {
     rest(1.0);
   }
 
+  // Comes down beside the particle and pushes it until it gives, seeing nothing.
+  void push_by_feel(std::size_t particle, const glm::dvec2& along, double m_per_s) {
+    beside(particle, along);
+    double most_n = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+      step(at_m_ + kStepS * m_per_s * along, kLowM);
+      most_n = std::max(most_n, force_n());
+      if (recording_.sessions.front().samples.back().push.state == physics::PushState::Slides) break;
+    }
+    felt_n_ = most_n;
+    go(at_m_, kHighM, kWayMPerS);
+    rest(1.0);
+  }
+
+  // Presses the particle from the middle of the sample, with so much of the felt force, or of that of 1 nN.
+  void press(std::size_t particle, double share, double seconds) {
+    const glm::dvec2 along = glm::normalize(place(particle));
+    beside(particle, along);
+    const double wanted_n = share * (felt_n_ > 0.0 ? felt_n_ : 1e-9);
+    for (int i = 0; i < 2000 && force_n() < wanted_n; ++i) step(at_m_ + kStepS * 0.002 * along, kLowM);
+    const auto first = static_cast<std::ptrdiff_t>(recording_.sessions.front().samples.size());
+    rest(seconds);
+    const auto& samples = recording_.sessions.front().samples;
+    double sum_n = 0.0;
+    for (auto sample = samples.begin() + first; sample != samples.end(); ++sample) {
+      sum_n += std::hypot(sample->push.lateral_n[0], sample->push.lateral_n[1]);
+    }
+    held_n_ = sum_n / static_cast<double>(samples.end() - samples.begin() - first);
+    go(at_m_, kHighM, kWayMPerS);
+    rest(1.0);
+  }
+  double held_n() const { return held_n_; }  // mean
+
+  // Pushes the first particle so much of the way to the target, steering.
+  void push_along_line(double share) {
+    const scene::Pattern pattern = scene::shared_pattern_of(set_);
+    const glm::dvec2 from_m = place(0);
+    push(0, from_m + share * (target(0) + glm::dvec2(12e-9, 0.0) - from_m));
+    rest(1.0);
+  }
+
   bool looks = false;  // again, before each push
 
   double time_s() const { return 1e-9 * static_cast<double>(recording_.now_ns); }
   servo::Recording& recording() { return recording_; }
 
  private:
+  void beside(std::size_t particle, const glm::dvec2& along) {
+    go(m_per_m_ * (place(particle) - kBehindM * along), kHighM, kWayMPerS);
+    go(at_m_, kLowM, kWayMPerS);
+  }
+  double force_n() const {
+    const scene::TipSample& sample = recording_.sessions.front().samples.back();
+    return std::hypot(sample.push.lateral_n[0], sample.push.lateral_n[1]);
+  }
   glm::dvec2 target(std::size_t i) const {
     return {pattern_.targets[i].position.x.si, pattern_.targets[i].position.y.si};
   }
@@ -168,6 +218,7 @@ class Person {
   double m_per_m_ = 0.0;
   glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended place, and the error of the tremor
   double height_m_ = 0.06;
+  double felt_n_ = 0.0, held_n_ = 0.0;
 };
 
 // The score as a live window keeps it, which sees the particles once a frame.
@@ -203,6 +254,68 @@ TEST(ParticleTask, IsSolvedByAPersonWithDelayAndTremorAndScoredAlikeLiveAndInARe
   EXPECT_EQ(score.truth, 1U) << "without a picture the particles themselves are shown";
   EXPECT_EQ(live_score(set, session, 17), score) << "at 60 frames a second";
   EXPECT_EQ(live_score(set, session, 450), score) << "at two frames a second";
+}
+
+// The score of a replay, which is that of a live window at any frame rate.
+scene::TaskScore replayed_score(const scene::ParticleSet& set, const servo::RecordedSession& session) {
+  ParticleTask task(set);
+  bool was_dark = false;
+  const auto replayed = servo::replay(session, {}, [&](const servo::ReplayedTick& tick) {
+    task.hear(tick);
+    was_dark = was_dark || task.dark();
+    if (tick.sample.push.particle != scene::kNoParticle && task.score().state != scene::TaskState::Done) {
+      EXPECT_TRUE(task.dark());
+    }
+  });
+  EXPECT_TRUE(replayed && replayed->identical());
+  EXPECT_EQ(was_dark, set.blind.has_value());
+  EXPECT_FALSE(task.score().state == scene::TaskState::Done && task.dark()) << "the picture is back";
+  EXPECT_EQ(live_score(set, session, 17), task.score()) << "at 60 frames a second";
+  EXPECT_EQ(live_score(set, session, 450), task.score()) << "at two frames a second";
+  return task.score();
+}
+
+TEST(BlindTask, ComparesTheForceThatAHandHoldsWithTheThresholdThatItFelt) {
+  const scene::ParticleSet set = test::particle_set("threshold-by-feel");
+  Person person(set, 5);
+  person.push_by_feel(0, {1.0, 0.0}, 0.004);
+  person.press(1, 0.5, 4.0);
+  const scene::TaskScore score = replayed_score(set, person.recording().sessions.front());
+  ASSERT_EQ(score.state, scene::TaskState::Done) << scene::text_of(score);
+  const physics::ParticleSpecies& gold = set.setup.species.front();
+  EXPECT_NEAR(score.threshold_n / physics::sliding_threshold(gold, gold.law, physics::Force(0.0)).si, 1.0, 0.02)
+      << "that of the file, and a little more under the tip that presses it down";
+  EXPECT_NEAR(score.answer_n, person.held_n(), 0.1 * score.threshold_n) << "within the tremor of the hand";
+  EXPECT_EQ(score.rms_m, 0.0);
+  EXPECT_EQ(score.truth, 0U) << "nobody saw the particles";
+  EXPECT_EQ(score.strokes, 1U);
+}
+
+TEST(BlindTask, IgnoresAPressBeforeTheThresholdWasFeltAndOneThatIsShort) {
+  const scene::ParticleSet set = test::particle_set("threshold-by-feel");
+  Person person(set, 5);
+  person.press(1, 0.5, 4.0);
+  person.push_by_feel(0, {1.0, 0.0}, 0.004);
+  person.press(1, 0.1, 0.2);
+  const scene::TaskScore score = replayed_score(set, person.recording().sessions.front());
+  EXPECT_EQ(score.state, scene::TaskState::Running) << scene::text_of(score);
+  EXPECT_GT(score.threshold_n, 0.0);
+  EXPECT_EQ(score.answer_n, 0.0);
+}
+
+TEST(BlindTask, MeasuresTheDistanceFromTheLineOfAPushThatIsFarEnough) {
+  const scene::ParticleSet set = test::particle_set("blind-line");
+  Person person(set, 7);
+  person.push_along_line(0.5);
+  EXPECT_EQ(replayed_score(set, person.recording().sessions.front()).state, scene::TaskState::Running) << "half way";
+  person.push_along_line(1.0);
+  const scene::TaskScore score = replayed_score(set, person.recording().sessions.front());
+  ASSERT_EQ(score.state, scene::TaskState::Done) << scene::text_of(score);
+  const auto places = places_of({.set = &set, .pages = person.recording().pages()});
+  EXPECT_NEAR(score.rms_m, std::abs((*places)[0].position.y.si), 1e-15) << "the line is along x";
+  EXPECT_LT(score.rms_m, scene::median_radius(set).si);
+  EXPECT_EQ(score.truth, 0U);
+  EXPECT_EQ(score.answer_n, 0.0);
 }
 
 TEST(ParticleTask, IsJudgedByMeasuredPlacesAlone) {

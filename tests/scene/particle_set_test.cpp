@@ -37,7 +37,7 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 10);
+  EXPECT_EQ(sets, 12);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
@@ -247,6 +247,21 @@ TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
   EXPECT_EQ(unknown.setup.species[0].kinetic_ratio, recorded->species[0].kinetic_ratio);
   ASSERT_EQ(unknown.particles.size(), set->particles.size());
   EXPECT_EQ(unknown.particles[1].position.x.si, recorded->particles[1].x_m);
+}
+
+TEST(ParticleSet, HasATaskWithoutAPictureOnlyIfItCanBeDone) {
+  const auto set_with = [](const std::string& task) { return refusal(shipped() + "\n[task]\n" + task); };
+  EXPECT_EQ(set_with("kind = \"line\"\nparticle = 1\ntarget = 3\n"), "accepted");
+  EXPECT_THAT(set_with("kind = \"line\"\nparticle = 1\n"), HasSubstr("task.target: is missing"));
+  EXPECT_THAT(set_with("kind = \"line\"\nparticle = 6\ntarget = 1\n"), HasSubstr("task.particle"));
+  EXPECT_THAT(set_with("kind = \"line\"\nparticle = 1\ntarget = 6\n"), HasSubstr("task.target"));
+  EXPECT_THAT(set_with("kind = \"threshold\"\nparticle = 1\n"), HasSubstr("task.kind: needs a particle with pinned"));
+  EXPECT_THAT(set_with("kind = \"threshold\"\nparticle = 1\ntarget = 1\n"), HasSubstr("task.target: is of no use"));
+  EXPECT_THAT(set_with("kind = \"blind\"\nparticle = 1\n"), HasSubstr("known are line, threshold"));
+  const std::string pinned = "x = \"0 nm\"\ny = \"0 nm\"\npinned = true\n";
+  EXPECT_THAT(
+      refusal(changed("x = \"0 nm\"\ny = \"0 nm\"\n", pinned) + "\n[task]\nkind = \"threshold\"\nparticle = 1\n"),
+      HasSubstr("particle 1 is pinned"));
 }
 
 TEST(ParticleSet, IsNotLookedForAmongNone) {
