@@ -44,9 +44,7 @@ void SoundControl::update(const ViewFrame& /*frame*/) {
 }
 
 void SoundControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
-  using exhibit::Phrase;
-  if (!parts_.turn.blank && !parts_.turn.dark) return;
-  exhibit::blank(picture, parts_.stage.phrases()[parts_.turn.dark ? Phrase::PictureDark : Phrase::PictureBlank]);
+  if (parts_.turn.blank || parts_.turn.dark) exhibit::blank(picture, parts_.stage.phrases());
 }
 
 void SoundControl::restart(Restart what) {

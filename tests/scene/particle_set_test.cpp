@@ -258,10 +258,9 @@ TEST(ParticleSet, HasATaskWithoutAPictureOnlyIfItCanBeDone) {
   EXPECT_THAT(set_with("kind = \"threshold\"\nparticle = 1\n"), HasSubstr("task.kind: needs a particle with pinned"));
   EXPECT_THAT(set_with("kind = \"threshold\"\nparticle = 1\ntarget = 1\n"), HasSubstr("task.target: is of no use"));
   EXPECT_THAT(set_with("kind = \"blind\"\nparticle = 1\n"), HasSubstr("known are line, threshold"));
-  const std::string pinned = "x = \"0 nm\"\ny = \"0 nm\"\npinned = true\n";
-  EXPECT_THAT(
-      refusal(changed("x = \"0 nm\"\ny = \"0 nm\"\n", pinned) + "\n[task]\nkind = \"threshold\"\nparticle = 1\n"),
-      HasSubstr("particle 1 is pinned"));
+  std::string pushed = core::read_file(kFolder + "/threshold-by-feel.toml").value();
+  pushed.replace(pushed.find("particle = 1"), 12, "particle = 2");
+  EXPECT_THAT(refusal(pushed), HasSubstr("task.kind: particle 2 is pinned, so nobody can push it"));
 }
 
 TEST(ParticleSet, IsNotLookedForAmongNone) {
@@ -271,7 +270,8 @@ TEST(ParticleSet, IsNotLookedForAmongNone) {
   EXPECT_EQ(none.error().category, core::ErrorCategory::Failed);
   EXPECT_THAT(none.error().message,
               HasSubstr("there are no sets in " + folder.file("removed/particles") + "; install"));
-  EXPECT_THAT(particle_file("silver-row", support::source("assets")).error().message, HasSubstr("choose gold-row, "));
+  EXPECT_THAT(particle_file("silver-row", support::source("assets")).error().message,
+              HasSubstr("choose blind-line, gold-row, "));
 }
 
 TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
