@@ -21,6 +21,7 @@
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/sound/jam_watch.h"
 #include "exhibit/state/moment.h"
+#include "exhibit/state/particle_task.h"
 #include "exhibit/words/guidance.h"
 #include "haptics/device.h"
 #include "haptics/felt_particles.h"
@@ -94,7 +95,7 @@ ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& s
       jam_(std::make_unique<exhibit::JamWatch>()) {
   parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
   if (!scene::has_task(set)) return;
-  task_.emplace(set);
+  task_ = std::make_unique<exhibit::ParticleTask>(set);
   parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample, parts_.servo.picture() == nullptr); });
   parts_.servo.hear_events([this](const scene::TipEvent& event) { task_->add(event); });
 }

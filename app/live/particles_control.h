@@ -8,11 +8,11 @@
 #include <string>
 
 #include "app/view/view_control.h"
-#include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
 
 namespace afm::exhibit {
 class JamWatch;
+class ParticleTask;
 class PushPlanner;
 struct WallState;
 }  // namespace afm::exhibit
@@ -108,12 +108,12 @@ class ParticlesControl final : public ViewControl {
   Order order_ = Order::None;
   std::unique_ptr<scene::AdjustedSet> adjusted_;
   std::unique_ptr<exhibit::JamWatch> jam_;
-  scene::PushSettings settings_{};             // settings in use, as far as announced
-  std::optional<std::size_t> marked_;          // index into kPushSettings, or its size: the load of a look
-  std::size_t look_load_ = 0;                  // index into the loads
-  bool far_enough_ = false;                    // announced
-  bool sweeps_ = false;                        // true: the servo has been informed of a look
-  std::optional<exhibit::ParticleTask> task_;  // only for a set with a task
+  scene::PushSettings settings_{};               // settings in use, as far as announced
+  std::optional<std::size_t> marked_;            // index into kPushSettings, or its size: the load of a look
+  std::size_t look_load_ = 0;                    // index into the loads
+  bool far_enough_ = false;                      // announced
+  bool sweeps_ = false;                          // true: the servo has been informed of a look
+  std::unique_ptr<exhibit::ParticleTask> task_;  // only for a set with a task
 };
 
 }  // namespace afm::app

@@ -2,6 +2,7 @@
 // The task among particles: its score, its words, and a wall that is dark until it is done.
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "exhibit/frame/exhibit_setup.h"
 #include "exhibit/panels/blind_task_words.h"
 #include "exhibit/sound/jam_watch.h"
+#include "exhibit/state/particle_task.h"
 #include "exhibit/words/guidance.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/particle_set.h"
@@ -33,7 +35,7 @@ void ParticlesControl::follow_jam() {
 
 // A new servo has every particle at its start, and no push to take back.
 void ParticlesControl::begin_task() {
-  if (task_) task_.emplace(set_);
+  if (task_) task_ = std::make_unique<exhibit::ParticleTask>(set_);
   now_.score = {};
 }
 

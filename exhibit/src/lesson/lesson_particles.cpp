@@ -16,6 +16,7 @@
 #include "physics/manipulation/marked_surface.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
+#include "push_trial.h"
 #include "scene/config/toml_table.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"

@@ -14,6 +14,9 @@
 
 namespace afm::exhibit {
 
+// Task of a step; empty if the picture is shown.
+std::optional<scene::BlindTask> blind_task_of(const PushPlan& plan);
+
 // Digest of the places of a set's spheres before the first push.
 std::uint64_t start_digest(const scene::ParticleSet& set);
 

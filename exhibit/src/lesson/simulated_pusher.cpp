@@ -31,7 +31,7 @@ constexpr double kLostWay = 8.0;
 constexpr double kBlindMPerS = 4e-3;  // speed of the hand
 constexpr double kTurn = 2.0;         // slope of its way by the side from which it feels the particle
 constexpr int kLostAfter = 25;        // commands without a force
-constexpr double kForceNoise = 0.07;  // of a remembered force, after Jones 1989: matched forces scatter by 6 to 8 %
+constexpr double kForceNoise = 0.07;  // scatter of a remembered force, order of magnitude, estimated
 constexpr double kPressMPerS = 3e-3;  // speed of a hand that presses, far from the force that it remembers
 constexpr double kPressS = 6.0;
 

@@ -5,14 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/enumerators.h"
 #include "exhibit/frame/exhibit_files.h"
-#include "scene/samples/blind_task.h"
 #include "scene/shared/scale_modes.h"
 #include "study/step_kind.h"
 
@@ -95,9 +93,6 @@ struct PushPlan {
   std::size_t target = 0;    // the same of a target, for Target and Line
   double distance_m = 0;     // least way, only with Moved
 };
-
-// Task of a set whose only target is the plan's; empty if the picture is shown.
-std::optional<scene::BlindTask> blind_task_of(const PushPlan& plan);
 
 struct LessonStep {
   std::string id;

@@ -118,7 +118,7 @@ class LessonRun {
   bool snapped_in_ = false;
   HandForce force_ = HandForce::None;
   std::optional<HandForce> unfelt_;  // force of the cycle or push that did not count, until one does
-  std::string result_;               // of the newest blind push
+  std::string result_;               // words about the newest blind push
   std::size_t result_task_ = 0;      // task with which it is said
   bool counted_ = false;             // a cycle of this step counted
   std::optional<LessonEnd> end_;

@@ -47,7 +47,7 @@ inline constexpr double kThresholdWithin = 0.2;
 struct LineWay {
   physics::Length along;
   physics::Length aside;   // distance from the line
-  physics::Length length;  // of the line
+  physics::Length length;  // whole length of the line
 
   bool far_enough() const { return along >= length; }
 };
@@ -71,7 +71,7 @@ class HeldForce {
     std::int64_t time_ns;
     double sum_n_ns;  // integral of the force over time, from the start of the contact
   };
-  std::deque<Part> parts_;  // of the newest kHeldNs
+  std::deque<Part> parts_;  // ticks of the newest kHeldNs
   double force_n_ = 0;      // newest
   std::optional<double> most_n_;
 };
