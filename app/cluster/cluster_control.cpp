@@ -48,7 +48,7 @@ void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/
 // Sends this frame's inputs and replaces the moment by what was sent, so that this machine also lacks what did not fit.
 void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   message_ = {};
-  exhibit::set_moment(now, parts_.servo.link().tip(), frame.caption, parts_.turn.blank, message_);
+  exhibit::set_moment(now, parts_.servo.link().tip(), frame.caption, parts_.turn.blank || parts_.turn.dark, message_);
   message_.panels = parts_.panels.told(frame.pointed, parts_.hand.source());
   message_.view = parts_.picture.told();
   share_scan();

@@ -238,7 +238,7 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   add_panels(stage_, *panels_, now, {.pointed = told.pointed, .hand = told.hand, .tip = tip},
              exhibit::caption_of(message), frame);
   const bool blank = (message.moment.flags & cluster::ShownMoment::kBlank) != 0;
-  if (blank) exhibit::blank(frame, stage_.phrases()[exhibit::Phrase::PictureBlank]);
+  if (blank) exhibit::blank(frame, stage_.phrases());
   auto& banner = frame.panels.banner;
   add_warning(missing_text(message.missing, stage_.wall, stage_.phrases()), banner.content);
   if (master_gone) add_warning(stage_.phrases()[exhibit::Phrase::MasterMissing], banner.content);

@@ -197,7 +197,7 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
       "         touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
-  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds nine").type_name("FILE");
+  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds ten").type_name("FILE");
   auto participant = command.add_option(
       "--participant", options->participant,
       "participant: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "

@@ -215,7 +215,9 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
                     format_quantity(to.x, kLengthUnits), format_quantity(to.y, kLengthUnits),
                     turns ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
   }
-  if (const auto pattern = scene::pattern_state(set, scene::pattern_of(set), played.judged_places())) {
+  const auto pattern =
+      set.blind ? std::nullopt : scene::pattern_state(set, scene::pattern_of(set), played.judged_places());
+  if (pattern) {
     text += fmt::format("\npattern of {} target{}: {}, {} off in the root mean square, {}\n", set.targets.size(),
                         plural(set.targets.size()),
                         !played.judged()  ? "not looked at since the last push"
@@ -224,9 +226,10 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
                         format_quantity(pattern->match.rms, kLengthUnits, 4),
                         pattern->pads > 0 ? fmt::format("{} of {} pads touched", pattern->touched, pattern->pads)
                                           : format_quantity(pattern->allowed, kLengthUnits, 4) + " allowed");
-    if (played.score.state != scene::TaskState::NotBegun) {
-      text += fmt::format("task of the pattern: {}\n", scene::text_of(played.score));
-    }
+  }
+  if (scene::has_task(set) && played.score.state != scene::TaskState::NotBegun) {
+    text += fmt::format("{}: {}\n", set.blind ? "\ntask without the picture" : "task of the pattern",
+                        scene::text_of(played.score));
   }
   text += picture_text(options.script, played);
   return text + energy_text(played);

@@ -270,7 +270,7 @@ core::Result<void> run_render(const RenderOptions& options) {
 
   const std::int64_t time_ns = *at_ns;
   std::optional<exhibit::ParticleTask> task;
-  if (session->particles && !stage->particles->targets.empty()) task.emplace(*stage->particles);
+  if (session->particles && scene::has_task(*stage->particles)) task.emplace(*stage->particles);
   const auto replayed = particles_at(*session, time_ns, options, task);
   if (!replayed) return tl::unexpected(replayed.error());
   const auto limits = session->particles ? scene::push_limits(*stage->particles) : std::vector<scene::PushLimits>();

@@ -185,7 +185,7 @@ core::Result<void> run_replay(const ReplayOptions& options, const std::string& a
   scene::ParticleSet set;
   if (session->particles) set = scene::recorded_set(session->particles->set, assets_dir);
   std::optional<exhibit::ParticleTask> followed;
-  if (!set.targets.empty()) followed.emplace(set);
+  if (scene::has_task(set)) followed.emplace(set);
   const auto replayed = servo::replay(*session, range, [&](const servo::ReplayedTick& tick) {
     if (followed) followed->hear(tick);
   });

@@ -8,9 +8,12 @@ namespace afm::app {
 nlohmann::json task_json(const scene::TaskScore& score) {
   if (score.state == scene::TaskState::NotBegun) return nullptr;
   const bool done = score.state == scene::TaskState::Done;
+  const bool felt = scene::answered(score);
   return {{"done", done},
           {"time_s", score.time_s},
-          {"rms_m", done ? nlohmann::json(score.rms_m) : nlohmann::json()},
+          {"rms_m", done && !felt ? nlohmann::json(score.rms_m) : nlohmann::json()},
+          {"threshold_N", score.threshold_n > 0.0 ? nlohmann::json(score.threshold_n) : nlohmann::json()},
+          {"answer_N", felt ? nlohmann::json(score.answer_n) : nlohmann::json()},
           {"strokes", score.strokes},
           {"losses", score.losses},
           {"pushes_taken_back", score.undos},

@@ -259,6 +259,10 @@ bool taps_alone(const ViewOptions& options) {
 
 core::Result<void> lay_particles(const ViewOptions& options, const exhibit::Stage& stage, scene::SharedModel& model) {
   if (stage.particles) model.particles = scene::shared_particles(*stage.particles);
+  if (stage.particles && stage.particles->blind && options.level.level > 0) {
+    return core::wrong_usage(fmt::format("--level {}: the task of {} is done without a picture; leave it out",
+                                         options.level.level, options.files.particles));
+  }
   return scene::set_level(options.level, model.particles);
 }
 

@@ -17,6 +17,7 @@
 #include "exhibit/lesson/live_lesson.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/scenery/lines_on_sample.h"
+#include "exhibit/sound/narrator.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
 
@@ -85,6 +86,10 @@ void LessonControl::update(const ViewFrame& frame) {
   exhibit::Narrator& narrator = parts_.sound.narrator();
   narrator.set_telling(asks() ? Telling::Faults : lesson_.prompt().hidden ? Telling::Force : Telling::All);
   if (const auto marked = lesson_.newly_marked()) narrator.note(*marked);
+  const bool far_enough = lesson_.prompt().far_enough;
+  if (!std::exchange(far_enough_, far_enough) && far_enough) {
+    narrator.happened(exhibit::HeardEvent::ParticleFarEnough, parts_.servo.link().tip().material);
+  }
   if (!parts_.servo.running()) return;
   lesson_.look(parts_.servo.link());
   lesson_.lay_sample(parts_.servo.link());

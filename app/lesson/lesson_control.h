@@ -46,6 +46,7 @@ class LessonControl final : public ViewControl, public ViewGuide {
 
   ViewParts& parts_;
   exhibit::LiveLesson& lesson_;
+  bool far_enough_ = false;  // announced
   std::string said_, line_;  // spoken text of the newest prompt, and the guidance after it
 };
 

@@ -21,6 +21,7 @@
 #include "exhibit/scenery/push_planner.h"
 #include "exhibit/sound/jam_watch.h"
 #include "exhibit/state/moment.h"
+#include "exhibit/state/particle_task.h"
 #include "exhibit/words/guidance.h"
 #include "haptics/device.h"
 #include "haptics/felt_particles.h"
@@ -51,6 +52,8 @@ const StrokeWords& words_of(const scene::ParticleSet& set) {
   if (set.ink) return kStrokes;
   return set.soft ? kScratches : kPushes;
 }
+
+constexpr const char* kNoLevelIfBlind = "no level: the task of this set is done without a picture";
 
 // Loads of a look in units of the gentle one, the first at the start.
 constexpr std::array kLookLoads{0.5, 2.0, 5.0};
@@ -91,8 +94,8 @@ ParticlesControl::ParticlesControl(ViewParts& parts, const scene::ParticleSet& s
       adjusted_(std::make_unique<scene::AdjustedSet>(set)),
       jam_(std::make_unique<exhibit::JamWatch>()) {
   parts_.choice.set_press_on_sample([this](const input::Ray& ray) { return point(ray); });
-  if (set.targets.empty()) return;
-  task_.emplace(set);
+  if (!scene::has_task(set)) return;
+  task_ = std::make_unique<exhibit::ParticleTask>(set);
   parts_.servo.hear([this](const scene::TipSample& sample) { task_->add(sample, parts_.servo.picture() == nullptr); });
   parts_.servo.hear_events([this](const scene::TipEvent& event) { task_->add(event); });
 }
@@ -169,6 +172,7 @@ std::optional<scene::PushRefusal> ParticlesControl::refusal(const PushSettings& 
   const servo::ServoClient& link = parts_.servo.link();
   const scene::SharedParticles& particles = link.model().particles;
   if (auto refused = scene::refusal(particles, settings)) return refused;
+  if (set_.blind && settings.level > 1) return scene::PushRefusal{Why::Picture, kNoLevelIfBlind};
   const auto scale = haptics::adjusted_scale(particles, settings, haptics::spec_of(link.device()));
   return scale ? std::nullopt : std::optional(scene::PushRefusal{Why::Lever, scale.error().message});
 }
@@ -254,13 +258,6 @@ void ParticlesControl::follow_settings() {
   }
 }
 
-void ParticlesControl::follow_jam() {
-  const auto held_n = jam_->add(now_.push);
-  if (!held_n) return;
-  core::log_line(fmt::format("jammed: the particles hold against {}", text_of(physics::Force(*held_n))));
-  parts_.sound.narrator().happened(exhibit::HeardEvent::ParticleJammed, parts_.servo.link().tip().material, *held_n);
-}
-
 bool ParticlesControl::point(const input::Ray& ray) {
   const auto unplanned = [this] { return planner_->plan().particle == scene::kNoParticle; };
   const bool begins = unplanned();
@@ -295,12 +292,6 @@ void ParticlesControl::restart(Restart what) {
   if (!parts_.servo.running() || !parts_.servo.material()) return;
   core::log_line(words_of(*now_.set).all);
   give(Order::PutBack);
-}
-
-// A new servo has every particle at its start, and no push to take back.
-void ParticlesControl::begin_task() {
-  if (task_) task_.emplace(set_);
-  now_.score = {};
 }
 
 void ParticlesControl::give(Order order) {
@@ -340,24 +331,6 @@ void ParticlesControl::carry_out(std::int64_t now_ns) {
   } else {
     servo.put_particles_back(now_ns);
   }
-}
-
-void ParticlesControl::follow_task() {
-  const bool ends = task_->look(parts_.servo.link().particle_pages(), parts_.servo.picture());
-  now_.score = task_->score();
-  if (!ends) return;
-  core::log_line("the pattern is done: " + scene::text_of(now_.score));
-  parts_.sound.narrator().happened(exhibit::HeardEvent::PatternDone, parts_.servo.link().tip().material);
-}
-
-std::optional<std::string> ParticlesControl::guidance(const exhibit::Phrases& phrases) const {
-  const scene::TipState& tip = parts_.servo.link().tip();
-  const bool marks = scene::leaves_marks(*now_.set) && exhibit::pushes_particles(tip) &&
-                     tip.servo_state == scene::ServoState::Running && tip.phase != physics::Phase::WaitForLift;
-  if (!marks) return std::nullopt;
-  const bool on = tip.phase == physics::Phase::Attached;
-  if (now_.set->ink) return phrases[on ? exhibit::Phrase::InkMove : exhibit::Phrase::InkTouch];
-  return phrases[on ? exhibit::Phrase::SoftDrag : exhibit::Phrase::SoftPress];
 }
 
 void ParticlesControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "app/view/view_control.h"
-#include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
 
 namespace afm::exhibit {
 class JamWatch;
+class ParticleTask;
 class PushPlanner;
 struct WallState;
 }  // namespace afm::exhibit
@@ -85,6 +85,9 @@ class ParticlesControl final : public ViewControl {
   // Announces that the pattern is done.
   void follow_task();
 
+  // Hides the picture of a blind task, and announces that its particle is far enough.
+  void follow_blind();
+
   // Shows the set with the settings that the servo uses, and announces them once they are others.
   void follow_settings();
 
@@ -105,11 +108,12 @@ class ParticlesControl final : public ViewControl {
   Order order_ = Order::None;
   std::unique_ptr<scene::AdjustedSet> adjusted_;
   std::unique_ptr<exhibit::JamWatch> jam_;
-  scene::PushSettings settings_{};             // settings in use, as far as announced
-  std::optional<std::size_t> marked_;          // index into kPushSettings, or its size: the load of a look
-  std::size_t look_load_ = 0;                  // index into the loads
-  bool sweeps_ = false;                        // true: the servo has been informed of a look
-  std::optional<exhibit::ParticleTask> task_;  // only for a set with a pattern
+  scene::PushSettings settings_{};               // settings in use, as far as announced
+  std::optional<std::size_t> marked_;            // index into kPushSettings, or its size: the load of a look
+  std::size_t look_load_ = 0;                    // index into the loads
+  bool far_enough_ = false;                      // announced
+  bool sweeps_ = false;                          // true: the servo has been informed of a look
+  std::unique_ptr<exhibit::ParticleTask> task_;  // only for a set with a task
 };
 
 }  // namespace afm::app

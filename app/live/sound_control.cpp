@@ -19,6 +19,10 @@ void SoundControl::say_state() { parts_.sound.say_state(parts_.servo.link().tip(
 void SoundControl::toggle_sound() { parts_.sound.toggle(); }
 
 void SoundControl::toggle_picture() {
+  if (parts_.turn.dark) {
+    core::log_line("the picture stays dark until the task is done; R begins it again");
+    return parts_.sound.narrator().note(parts_.stage.phrases()[exhibit::Phrase::PictureDark]);
+  }
   bool& blank = parts_.turn.blank;
   blank = !blank;
   core::log_line(blank ? "the picture is blank" : "the picture is shown");
@@ -40,7 +44,7 @@ void SoundControl::update(const ViewFrame& /*frame*/) {
 }
 
 void SoundControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {
-  if (parts_.turn.blank) exhibit::blank(picture, parts_.stage.phrases()[exhibit::Phrase::PictureBlank]);
+  if (parts_.turn.blank || parts_.turn.dark) exhibit::blank(picture, parts_.stage.phrases());
 }
 
 void SoundControl::restart(Restart what) {

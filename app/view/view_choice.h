@@ -40,6 +40,7 @@ class ViewChoice {
 
   // The guide takes a person's answers first; it must outlive the object.
   void set_guide(ViewGuide& guide) { guide_ = &guide; }
+  bool guided() const { return guide_ != nullptr; }
   std::string spoken(const std::string& line) const;  // speech for this line of guidance
 
   void choose(std::size_t material);

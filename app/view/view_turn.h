@@ -29,6 +29,7 @@ struct ViewTurn {
   bool draws_unseen = false;                        // frames are drawn even while all windows are hidden
   bool paced = false;                               // the frame rate is limited elsewhere, so the loop does not wait
   bool blank = false;                               // picture hidden, for users who rely on sound and touch
+  bool dark = false;                                // the same, until a task that is done without it ends
   std::function<bool(std::int64_t now_ns)> unseen;  // true while nobody sees the picture; unset: unknown
   std::function<std::int64_t(std::int64_t now_ns)> seen_elsewhere_ns;  // newest picture of the sample on other machines
   exhibit::Hint hint = exhibit::Hint::ChooseSample;                    // next step of the procedure

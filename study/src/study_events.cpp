@@ -44,7 +44,8 @@ constexpr double kLongestLesson_s = 1e7;
 constexpr double kHighestLevel = 1e3;
 constexpr double kMostTrialsOfAStep = 1e6;
 constexpr double kFarthestPush_m = 1e-3, kMostPushes = 1e6, kMostPushWork_aj = 1e12, kLargestPushForce_nn = 1e9;
-constexpr std::array<std::string_view, 4> kPushEnds{"moved", "target", "pattern", "lost"};
+constexpr std::array<std::string_view, 6> kPushEnds{"moved", "target", "pattern", "lost", "line", "threshold"};
+constexpr double kMostOverThreshold = 1e3;
 
 // The items of a questionnaire are named "sus-1" and so on.
 struct ItemRange {
@@ -183,14 +184,14 @@ class EventsLine {
 
   void push(StudyTrial& trial) {
     if (std::find(kPushEnds.begin(), kPushEnds.end(), trial.stimulus) == kPushEnds.end()) {
-      refuse(Stimulus, "moved, target, pattern or lost");
+      refuse(Stimulus, "moved, target, pattern, lost, line or threshold");
     }
-    task(trial);
+    task(trial, trial.stimulus == "threshold" ? kMostOverThreshold : kFarthestPush_m);
   }
 
   // Columns of a push, and of lines that were written.
-  void task(StudyTrial& trial) {
-    trial.value = optional(Response, 0, kFarthestPush_m);
+  void task(StudyTrial& trial, double most = kFarthestPush_m) {
+    trial.value = optional(Response, 0, most);
     trial.strokes = count(Strokes);
     trial.losses = count(Losses);
     trial.undos = count(Undos);

@@ -154,17 +154,20 @@ void add_pushes(const TrialGroups& pushes, LessonResults& results) {
       return std::find(ends.begin(), ends.end(), trial.stimulus) != ends.end() ? trial.value : std::nullopt;
     };
   };
-  add_task(pushes,
-           std::array{
-               TaskRow{"distance_m", "distance from the targets", "nm", 1e9, kNotNegative, only({"target", "pattern"})},
-               TaskRow{"way_m", "way of the particle", "nm", 1e9, kNotNegative, only({"moved", "lost"})},
-               TaskRow{"push_time_s", "time of the push", "s", 1.0, kNotNegative, seconds_of},
-               TaskRow{"strokes", "pushes", "", 1.0, kNotNegative, strokes_of},
-               TaskRow{"losses", "slipped past", "", 1.0, kNotNegative, [](const auto& trial) { return trial.losses; }},
-               TaskRow{"undos", "pushes taken back", "", 1.0, kNotNegative, undos_of},
-               TaskRow{"work_J", "work on the particles", "aJ", 1e18, kAnyNumber, work_of},
-               TaskRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative, largest_force_of}},
-           results);
+  add_task(
+      pushes,
+      std::array{
+          TaskRow{"distance_m", "distance from the targets", "nm", 1e9, kNotNegative, only({"target", "pattern"})},
+          TaskRow{"aside_m", "distance from the line", "nm", 1e9, kNotNegative, only({"line"})},
+          TaskRow{"over_threshold", "force pressed over the threshold", "", 1.0, kNotNegative, only({"threshold"})},
+          TaskRow{"way_m", "way of the particle", "nm", 1e9, kNotNegative, only({"moved", "lost"})},
+          TaskRow{"push_time_s", "time of the push", "s", 1.0, kNotNegative, seconds_of},
+          TaskRow{"strokes", "pushes", "", 1.0, kNotNegative, strokes_of},
+          TaskRow{"losses", "slipped past", "", 1.0, kNotNegative, [](const auto& trial) { return trial.losses; }},
+          TaskRow{"undos", "pushes taken back", "", 1.0, kNotNegative, undos_of},
+          TaskRow{"work_J", "work on the particles", "aJ", 1e18, kAnyNumber, work_of},
+          TaskRow{"largest_force_N", "largest lateral force", "nN", 1e9, kNotNegative, largest_force_of}},
+      results);
   for (const auto& [where, people] : pushes) {
     for (const auto& [id, trials] : people) {
       for (const StudyTrial* trial : trials) {

@@ -196,6 +196,31 @@ TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
   EXPECT_GT(unguided, 0U);
 }
 
+TEST_F(ViewParticles, AreDarkFromTheFirstTouchUntilABlindTaskIsDone) {
+  folder_.write("row.toml", three_in_a_row() +
+                                "[[target]]\nx = \"-74 nm\"\ny = \"0 nm\"\n"
+                                "[task]\nkind = \"line\"\nparticle = 1\ntarget = 1\n");
+  support::LiveProgram view(
+      {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width", "320",
+       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+      display_.name());
+  ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
+  xdotool("search --sync --name TouchAFM");
+  xdotool("key 1");
+  ASSERT_TRUE(view.says("chosen: ")) << view.said();
+  ASSERT_TRUE(push(view, 0.010)) << view.said();
+  EXPECT_THAT(view.said(), HasSubstr("the picture is dark until the task is done"));
+  xdotool("key x");
+  ASSERT_TRUE(view.says("the picture stays dark until the task is done; R begins it again")) << view.said();
+  xdotool("key r");
+  ASSERT_TRUE(view.says("the picture is shown again")) << view.said();
+  ASSERT_TRUE(push(view, 0.022)) << view.said();
+  ASSERT_TRUE(view.says("the picture is shown again")) << view.said();
+  ASSERT_TRUE(view.says("the task is done: done in ")) << view.said();
+  xdotool("key Escape");
+  ASSERT_EQ(view.ends(), 0) << view.said();
+}
+
 TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   folder_.write("row.toml", three_in_a_row());
   support::LiveProgram view({support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--level", "2",

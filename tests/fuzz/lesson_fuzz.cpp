@@ -18,7 +18,9 @@ namespace {
 bool can_be_pushed(const afm::exhibit::PushPlan& plan, const afm::exhibit::Lesson& lesson) {
   using afm::exhibit::PushUntil;
   if (!lesson.set || plan.particle >= lesson.set->particles.size()) return false;
-  if (plan.until == PushUntil::Target && plan.target >= lesson.set->targets.size()) return false;
+  if (plan.until == PushUntil::Threshold) return true;
+  if ((plan.until == PushUntil::Target || plan.until == PushUntil::Line) && plan.target >= lesson.set->targets.size())
+    return false;
   if (plan.until == PushUntil::Pattern) return !lesson.set->targets.empty();
   return plan.until != PushUntil::Moved || (std::isfinite(plan.distance_m) && plan.distance_m > 0.0);
 }

@@ -37,7 +37,7 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
       for (const SourcedValue& value : species.sources) EXPECT_FALSE(value.source.empty()) << value.key;
     }
   }
-  EXPECT_EQ(sets, 10);
+  EXPECT_EQ(sets, 12);
 }
 
 TEST(ParticleSet, GoldRowHasTheNumbersOfTheCases) {
@@ -249,6 +249,20 @@ TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
   EXPECT_EQ(unknown.particles[1].position.x.si, recorded->particles[1].x_m);
 }
 
+TEST(ParticleSet, HasATaskWithoutAPictureOnlyIfItCanBeDone) {
+  const auto set_with = [](const std::string& task) { return refusal(shipped() + "\n[task]\n" + task); };
+  EXPECT_EQ(set_with("kind = \"line\"\nparticle = 1\ntarget = 3\n"), "accepted");
+  EXPECT_THAT(set_with("kind = \"line\"\nparticle = 1\n"), HasSubstr("task.target: is missing"));
+  EXPECT_THAT(set_with("kind = \"line\"\nparticle = 6\ntarget = 1\n"), HasSubstr("task.particle"));
+  EXPECT_THAT(set_with("kind = \"line\"\nparticle = 1\ntarget = 6\n"), HasSubstr("task.target"));
+  EXPECT_THAT(set_with("kind = \"threshold\"\nparticle = 1\n"), HasSubstr("task.kind: needs a particle with pinned"));
+  EXPECT_THAT(set_with("kind = \"threshold\"\nparticle = 1\ntarget = 1\n"), HasSubstr("task.target: is of no use"));
+  EXPECT_THAT(set_with("kind = \"blind\"\nparticle = 1\n"), HasSubstr("known are line, threshold"));
+  std::string pushed = core::read_file(kFolder + "/threshold-by-feel.toml").value();
+  pushed.replace(pushed.find("particle = 1"), 12, "particle = 2");
+  EXPECT_THAT(refusal(pushed), HasSubstr("task.kind: particle 2 is pinned, so nobody can push it"));
+}
+
 TEST(ParticleSet, IsNotLookedForAmongNone) {
   const support::ScratchFolder folder;
   const auto none = particle_file("gold-row", folder.file("removed"));
@@ -256,7 +270,8 @@ TEST(ParticleSet, IsNotLookedForAmongNone) {
   EXPECT_EQ(none.error().category, core::ErrorCategory::Failed);
   EXPECT_THAT(none.error().message,
               HasSubstr("there are no sets in " + folder.file("removed/particles") + "; install"));
-  EXPECT_THAT(particle_file("silver-row", support::source("assets")).error().message, HasSubstr("choose gold-row, "));
+  EXPECT_THAT(particle_file("silver-row", support::source("assets")).error().message,
+              HasSubstr("choose blind-line, gold-row, "));
 }
 
 TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {

@@ -23,7 +23,7 @@ namespace afm::cluster {
 inline constexpr std::size_t kMostDatagramBytes = 1300;
 
 // Increase whenever the meaning of a message changes.
-inline constexpr std::uint32_t kClusterVersion = 12;
+inline constexpr std::uint32_t kClusterVersion = 13;
 
 // Header of every message. Each master draws a random `session` when it starts.
 struct ClusterHeader {

@@ -40,17 +40,19 @@ constexpr std::array kEventTexts{
     ColumnText{"level", "w of a threshold's trial: the stronger F_ad is 1 + w times the weaker one", nullptr},
     ColumnText{"stimulus",
                "identify: material shown, or state of the swing; threshold: cycle that needed more force to let go; "
-               "question: item; push: what ended it (moved, target, pattern, lost)",
+               "question: item; push: what ended it (moved, target, pattern, lost, line, threshold)",
                nullptr},
-    ColumnText{"response",
-               "identify: material or state answered; threshold: cycle answered; question: number answered (paper 0 to "
-               "4, sus 1 "
-               "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N; push: in m, for target "
-               "and pattern the root mean square "
-               "distance from the targets; for moved and lost, of the particle from its start; write: in m, the root "
-               "mean square "
-               "distance of the groove from the lines",
-               nullptr},
+    ColumnText{
+        "response",
+        "identify: material or state answered; threshold: cycle answered; question: number answered (paper 0 to "
+        "4, sus 1 "
+        "to 5, tlx 0 to 100, ssq 0 to 3); draw: share of right parts; cycle: F_ad in N; push: in m, for target "
+        "and pattern the root mean square "
+        "distance from the targets; for moved and lost, of the particle from its start; for line, from the line; "
+        "for threshold without a unit, the force pressed over the threshold; write: in m, the root "
+        "mean square "
+        "distance of the groove from the lines",
+        nullptr},
     ColumnText{"correct", "whether the answer is right", nullptr, {{{"0", "wrong"}, {"1", "right"}}}},
     ColumnText{
         "rt", "time from the question to the answer; push and write: from the first stroke to the last lift of the tip",

@@ -16,6 +16,7 @@
 #include "physics/manipulation/marked_surface.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/quantity_text.h"
+#include "push_trial.h"
 #include "scene/config/toml_table.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
@@ -47,6 +48,13 @@ physics::Length field_side(const scene::ParticleSet& set) {
 
 void refuse_push_key(const TomlTable& table, std::string_view key, PushUntil until) {
   if (table.has(key)) table.refuse(key, fmt::format("is of no use with until = \"{}\"", row_of(until).word));
+}
+
+// A blind task that the set does not allow.
+void refuse_impossible(const TomlTable& table, const PushPlan& plan, const scene::ParticleSet& set) {
+  const auto task = blind_task_of(plan);
+  const std::string why = task ? scene::why_not(*task, set) : std::string();
+  if (!why.empty()) table.refuse("until", why);
 }
 
 // A corner of a line: "-50 nm, 0 nm".
@@ -129,11 +137,12 @@ PushPlan read_push(const TomlTable& table, const scene::ParticleSet& set) {
     plan.particle = static_cast<std::size_t>(table.whole("particle", 1, count) - 1);
     if (set.particles[plan.particle].pinned) table.refuse("particle", "is pinned in its place, so nobody can push it");
   }
-  if (plan.until == PushUntil::Target) {
+  if (plan.until == PushUntil::Target || plan.until == PushUntil::Line) {
     plan.target = static_cast<std::size_t>(table.whole("target", 1, static_cast<std::int64_t>(set.targets.size())) - 1);
   } else {
     refuse_push_key(table, "target", plan.until);
   }
+  refuse_impossible(table, plan, set);
   if (plan.until != PushUntil::Moved) {
     refuse_push_key(table, "distance", plan.until);
     return plan;

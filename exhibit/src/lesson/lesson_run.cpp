@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/lesson/lesson_run.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "exhibit/lesson/williams.h"
+#include "physics/quantity_text.h"
 #include "step_activity.h"
 
 namespace afm::exhibit {
@@ -113,9 +117,22 @@ core::Result<void> LessonRun::keep(TrialRow row) {
   row.step = lesson_.steps[task.step].id;
   row.kind = lesson_.steps[task.step].kind;
   row.condition = task.condition;
-  if (row.push) row.push->truth = task.condition != Condition::Haptics;
+  if (row.push) row.push->truth = row.push->truth && task.condition != Condition::Haptics;
+  if (row.push) note_result(row);
   if (study::row_of(row.kind).has_cycles && !row.force) row.force = counted_ && wanted_force() == HandForce::Full;
   return sink_(row);
+}
+
+// Result of a blind push, to be said with the next step.
+void LessonRun::note_result(const TrialRow& row) {
+  if (row.response.empty()) return;
+  const bool line = row.stimulus == row_of(PushUntil::Line).word;
+  if (!line && row.stimulus != row_of(PushUntil::Threshold).word) return;
+  const double result = std::stod(row.response);
+  result_task_ = task_ + 1;
+  result_ = line ? phrases_.text<Phrase::LessonLineWas>(
+                       phrases_.number(physics::format_quantity(physics::Length(result), physics::kLengthUnits, 3)))
+                 : phrases_.text<Phrase::LessonThresholdWas>(fmt::format("{:.0f} %", 100.0 * result));
 }
 
 LessonPrompt LessonRun::prompt(double now_s) const {
@@ -146,6 +163,7 @@ LessonPrompt LessonRun::prompt(double now_s) const {
   prompt.task = task_;
   prompt.condition = task.condition;
   activity_->describe(prompt);
+  if (!result_.empty() && task_ == result_task_) prompt.words = result_ + " " + prompt.words;
   if (unfelt_ && prompt.by_hand()) {
     prompt.words = phrases_[note_of(prompt.kind, *unfelt_, wanted_force())] + " " + prompt.words;
   }

@@ -171,12 +171,15 @@ void LiveLesson::stop() {
 
 // Shows a blind sample only if the condition includes the picture.
 bool LiveLesson::shows_scene() const {
+  if (prompt_.dark) return false;
   if (prompt_.condition) return *prompt_.condition != Condition::Haptics;
   return !prompt_.hidden;
 }
 
 bool LiveLesson::has_tones() const {
   if (takes_hand()) return false;
+  // a threshold that is felt has no tones in any condition
+  if (prompt_.dark && prompt_.hidden) return false;
   if (prompt_.condition) return *prompt_.condition == Condition::Sound;
   return !prompt_.hidden || prompt_.of_states;
 }

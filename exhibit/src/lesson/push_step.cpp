@@ -27,6 +27,10 @@ class PushActivity final : public StepActivity {
     prompt.material = 0;
     prompt.put_back = !trial_;
     prompt.push = context_.step.push;
+    prompt.dark = trial_ && trial_->dark();
+    prompt.far_enough = prompt.dark && far_enough_;
+    // a threshold is to be felt alone
+    prompt.hidden = prompt.dark && context_.step.push.until == PushUntil::Threshold;
   }
   void add(const scene::TipEvent& event) override {
     if (trial_) trial_->add(event);
@@ -44,10 +48,11 @@ class PushActivity final : public StepActivity {
       if (all && scene::digest_of(pages, count) == start_) trial_.emplace(*context_.particles, context_.step.push);
       return;
     }
+    far_enough_ = trial_->far_enough(pages);
     if (!trial_->look(pages)) return;
     done_ = true;
     TrialRow row = trial(now_s);
-    row.response = fmt::format("{:.6g}", trial_->result().si);
+    row.response = fmt::format("{:.6g}", trial_->result());
     add_score(trial_->score(), row);
     context_.keep(std::move(row));
   }
@@ -61,6 +66,7 @@ class PushActivity final : public StepActivity {
   }
   void reset(double now_s) override {
     began_s_ = now_s;
+    far_enough_ = false;
     trial_.reset();
   }
   bool done() const override { return done_; }
@@ -72,6 +78,7 @@ class PushActivity final : public StepActivity {
   double began_s_;
   std::optional<PushTrial> trial_;  // nothing while the particles are to be put back
   bool touches_ = false;            // the tip touches a particle
+  bool far_enough_ = false;         // a blind push is at the end of its line
   bool done_ = false;
 };
 
@@ -84,7 +91,8 @@ void add_score(const scene::TaskScore& score, TrialRow& row) {
                          .losses = score.losses,
                          .undos = score.undos,
                          .work_j = score.work_j,
-                         .largest_lateral_n = score.largest_lateral_n};
+                         .largest_lateral_n = score.largest_lateral_n,
+                         .truth = score.truth != 0};
 }
 
 std::unique_ptr<StepActivity> make_push_activity(const StepContext& context, double now_s) {

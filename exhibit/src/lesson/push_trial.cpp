@@ -17,9 +17,12 @@ using physics::Sideways;
 // With one target only its particle counts; pinned ones stay out of a pattern.
 scene::ParticleSet wanted_set(const scene::ParticleSet& set, const PushPlan& plan) {
   scene::ParticleSet wanted = set;
-  if (plan.until != PushUntil::Target) return wanted;
+  wanted.blind = blind_task_of(plan);
+  if (plan.until != PushUntil::Target && plan.until != PushUntil::Line) return wanted;
   wanted.targets = {set.targets[plan.target]};
   wanted.pads.clear();
+  if (wanted.blind) wanted.blind->target = 0;
+  if (plan.until == PushUntil::Line) return wanted;
   for (std::size_t i = 0; i < wanted.particles.size(); ++i) wanted.particles[i].pinned = i != plan.particle;
   return wanted;
 }
@@ -34,6 +37,21 @@ Sideways<Length> start_of(const scene::ParticleSet& set, std::size_t particle) {
 }
 
 }  // namespace
+
+std::optional<scene::BlindTask> blind_task_of(const PushPlan& plan) {
+  switch (plan.until) {
+    case PushUntil::Line:
+      return scene::BlindTask{scene::BlindKind::Line, plan.particle, plan.target};
+    case PushUntil::Threshold:
+      return scene::BlindTask{scene::BlindKind::Threshold, plan.particle, 0};
+    case PushUntil::Moved:
+    case PushUntil::Target:
+    case PushUntil::Pattern:
+    case PushUntil::Lost:
+      break;
+  }
+  return std::nullopt;
+}
 
 std::uint64_t start_digest(const scene::ParticleSet& set) {
   const auto shared = shared_of(set);
@@ -67,12 +85,17 @@ bool PushTrial::look(std::span<const scene::ParticlePage> pages) {
     case PushUntil::Pattern:
     case PushUntil::Target:
       if (!task_.look(pages)) return false;
-      result_ = Length(task_.score().rms_m);
+      result_ = task_.score().rms_m;
+      return true;
+    case PushUntil::Line:
+    case PushUntil::Threshold:
+      if (!task_.look(pages)) return false;
+      result_ = scene::answered(task_.score()) ? 1.0 + scene::answer_error(task_.score()) : task_.score().rms_m;
       return true;
     case PushUntil::Lost: {
       const auto pose = lost_ ? pose_of({.set = &set_, .pages = pages}, plan_.particle) : std::nullopt;
       if (!pose) return false;
-      result_ = way_of({Length(pose->x_m), Length(pose->y_m)});
+      result_ = way_of({Length(pose->x_m), Length(pose->y_m)}).si;
       return true;
     }
     case PushUntil::Moved:
@@ -80,9 +103,9 @@ bool PushTrial::look(std::span<const scene::ParticlePage> pages) {
   }
   const auto places = task_.unjudged(pages);
   if (!places) return false;
-  result_ = way_of((*places)[plan_.particle].position);
-  if (result_.si < plan_.distance_m) return false;
-  task_.end(Length(result_.si - plan_.distance_m));
+  result_ = way_of((*places)[plan_.particle].position).si;
+  if (result_ < plan_.distance_m) return false;
+  task_.end(Length(result_ - plan_.distance_m));
   return true;
 }
 

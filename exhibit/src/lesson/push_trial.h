@@ -14,6 +14,9 @@
 
 namespace afm::exhibit {
 
+// Task of a step; empty if the picture is shown.
+std::optional<scene::BlindTask> blind_task_of(const PushPlan& plan);
+
 // Digest of the places of a set's spheres before the first push.
 std::uint64_t start_digest(const scene::ParticleSet& set);
 
@@ -34,9 +37,13 @@ class PushTrial {
 
   const scene::TaskScore& score() const { return lost_ ? *lost_ : task_.score(); }
 
-  // Measure of a finished push: root mean square distance from the targets, or the distance that the particle has
-  // moved.
-  physics::Length result() const { return result_; }
+  // The wall is to be dark, or the particle of a blind push is at the end of its line; with the newest pages.
+  bool dark() const { return task_.dark(); }
+  bool far_enough(std::span<const scene::ParticlePage> pages) const { return dark() && task_.far_enough(pages); }
+
+  // Measure of a finished push: root mean square distance from the targets, or from the line, or the distance that the
+  // particle has moved, in m; for Threshold the answer over the threshold.
+  double result() const { return result_; }
 
  private:
   physics::Length way_of(const physics::Sideways<physics::Length>& place) const;
@@ -47,7 +54,7 @@ class PushTrial {
   ParticleTask task_;
   std::int32_t touched_ = scene::kNoParticle;  // newest particle that the tip has touched
   std::optional<scene::TaskScore> lost_;       // score at the loss that was wanted
-  physics::Length result_{0.0};
+  double result_ = 0;
 };
 
 }  // namespace afm::exhibit

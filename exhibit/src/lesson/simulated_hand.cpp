@@ -128,6 +128,8 @@ bool SimulatedHand::goes_on() const {
   return prompt.wants == taken_.wants && prompt.task == taken_.task;
 }
 
+LessonPrompt SimulatedHand::prompt() const { return run_->prompt(now_s_); }
+
 void SimulatedHand::put_back() {
   select(true);
   tick(1000);

@@ -56,6 +56,8 @@ class SimulatedHand {
   virtual void attempt(const LessonPrompt& prompt) = 0;
 
   bool goes_on() const;
+  LessonPrompt prompt() const;  // current one
+  double noise() { return normal_(); }
   void put_back();  // has the servo put everything back, then arms again
   void rest(double seconds);
   void go(const glm::dvec2& to_m, double height_m, double m_per_s);  // in metres of the hand

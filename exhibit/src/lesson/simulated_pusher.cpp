@@ -27,6 +27,13 @@ constexpr double kBehind = 2.0;  // from the middle of the particle to the tip t
 constexpr double kNear = 0.4;    // distance from a target that the student is content with
 constexpr double kAside = 0.3;   // offset that loses a particle
 constexpr double kLostWay = 8.0;
+// without the picture
+constexpr double kBlindMPerS = 4e-3;  // speed of the hand
+constexpr double kTurn = 2.0;         // slope of its way by the side from which it feels the particle
+constexpr int kLostAfter = 25;        // commands without a force
+constexpr double kForceNoise = 0.07;  // scatter of a remembered force, order of magnitude, estimated
+constexpr double kPressMPerS = 3e-3;  // speed of a hand that presses, far from the force that it remembers
+constexpr double kPressS = 6.0;
 
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
   const glm::dvec2 along = b - a;
@@ -39,10 +46,17 @@ class PushingHand final : public SimulatedHand {
   PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed);
 
  private:
+  static constexpr double kBlindStepM = kBlindMPerS * kCommandS;  // way of the hand in a command
+
   void attempt(const LessonPrompt& prompt) override;
   void bring(std::size_t particle, const glm::dvec2& to_m);
   void steer(std::size_t particle, const glm::dvec2& to_m);
   void slip_past(std::size_t particle);
+  void push_by_feel(std::size_t particle, const glm::dvec2& to_m);
+  void answer_by_feel(std::size_t particle);
+  std::optional<double> feel(std::size_t particle);
+  void press(std::size_t particle, double force_n);
+  double lateral_n() const { return std::hypot(push().lateral_n[0], push().lateral_n[1]); }
   glm::dvec2 free_direction(std::size_t particle, double way_m) const;
   glm::dvec2 place(std::size_t particle) const;
   double radius_m(std::size_t particle) const;
@@ -83,6 +97,10 @@ void PushingHand::attempt(const LessonPrompt& prompt) {
     }
     case PushUntil::Lost:
       return slip_past(plan.particle);
+    case PushUntil::Line:
+      return push_by_feel(plan.particle, targets_m_[plan.target]);
+    case PushUntil::Threshold:
+      return answer_by_feel(plan.particle);
   }
 }
 
@@ -122,6 +140,71 @@ void PushingHand::slip_past(std::size_t particle) {
   go(at_m(), low_m(), kWayMPerS);
   const auto steps = static_cast<int>(kLostWay * r_m * m_per_m() / (kDrawMPerS * kCommandS));
   for (int i = 0; i < steps && goes_on(); ++i) step(at_m() + kCommandS * kDrawMPerS * along, low_m());
+  lift();
+}
+
+// Comes down behind the particle, which can be seen until then, and steers by the side from which the force comes. If
+// the particle is lost, all begins again.
+void PushingHand::push_by_feel(std::size_t particle, const glm::dvec2& to_m) {
+  const glm::dvec2 from_m = place(particle), along = glm::normalize(to_m - from_m), right(along.y, -along.x);
+  go(m_per_m() * (from_m - kBehind * radius_m(particle) * along), high_m(), kWayMPerS);
+  go(at_m(), low_m(), kWayMPerS);
+  std::deque<double> felt;
+  int free = 0;  // commands since the tip has touched it
+  for (int i = 0; i < kMostPushSteps && free < kLostAfter && !prompt().far_enough; ++i) {
+    const double side = felt.size() < kSeenAfter ? 0.0 : felt.front();
+    step(at_m() + kBlindStepM * (along + kTurn * side * right), low_m());
+    const bool touches = lateral_n() > 0.0;
+    free = touches ? 0 : free + (felt.empty() ? 0 : 1);
+    if (!touches && felt.empty()) continue;
+    felt.push_back(touches ? -glm::dot(glm::dvec2(push().lateral_n[0], push().lateral_n[1]), right) / lateral_n()
+                           : 0.0);
+    if (felt.size() > kSeenAfter) felt.pop_front();
+  }
+  lift();
+  rest(1.0);
+  if (goes_on()) put_back();
+}
+
+void PushingHand::answer_by_feel(std::size_t particle) {
+  if (const auto felt_n = feel(particle)) {
+    const auto& all = set().particles;
+    const auto post = std::find_if(all.begin(), all.end(), [](const auto& p) { return p.pinned; });
+    press(static_cast<std::size_t>(post - all.begin()), *felt_n * (1.0 + kForceNoise * noise()));
+    rest(1.0);
+  }
+  if (goes_on()) put_back();
+}
+
+// Largest lateral force before the particle gave.
+std::optional<double> PushingHand::feel(std::size_t particle) {
+  const glm::dvec2 from_m = place(particle), along = free_direction(particle, 2.0 * radius_m(particle));
+  go(m_per_m() * (from_m - kBehind * radius_m(particle) * along), high_m(), kWayMPerS);
+  go(at_m(), low_m(), kWayMPerS);
+  double most_n = 0.0;
+  bool gave = false;
+  for (int i = 0; i < kMostPushSteps && !gave; ++i) {
+    step(at_m() + kBlindStepM * along, low_m());
+    most_n = std::max(most_n, lateral_n());
+    gave = push().state == physics::PushState::Slides || push().state == physics::PushState::Rolls;
+  }
+  lift();
+  return gave ? std::optional(most_n) : std::nullopt;
+}
+
+// Presses a particle until the force is the remembered one, and holds it.
+void PushingHand::press(std::size_t particle, double force_n) {
+  const glm::dvec2 to_m = place(particle), along = glm::normalize(to_m);
+  go(m_per_m() * (to_m - kBehind * radius_m(particle) * along), high_m(), kWayMPerS);
+  go(at_m(), low_m(), kWayMPerS);
+  std::deque<double> felt_n;
+  for (double s = 0.0; s < kPressS; s += kCommandS) {
+    const double now_n = felt_n.size() < kSeenAfter ? 0.0 : felt_n.front();
+    const double off = std::clamp((force_n - now_n) / force_n, -1.0, 1.0);
+    step(at_m() + kCommandS * kPressMPerS * off * along, low_m());
+    felt_n.push_back(lateral_n());
+    if (felt_n.size() > kSeenAfter) felt_n.pop_front();
+  }
   lift();
 }
 

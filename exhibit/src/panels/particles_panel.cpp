@@ -127,9 +127,24 @@ class ParticleRows {
         phrases_.number(fmt::format("{:.{}f} s", score.time_s, done ? 1 : 0)),
         phrases_.text<Phrase::TaskStrokes>(fmt::format("{}", score.strokes), fmt::format("{}", score.losses)));
     if (!done) return;
-    add(Phrase::TaskOff, quantity_text(physics::Length(score.rms_m), physics::kLengthUnits, phrases_), aids_of(score));
+    if (scene::answered(score)) {
+      add_answer(score);
+    } else {
+      add(Phrase::TaskOff, quantity_text(physics::Length(score.rms_m), physics::kLengthUnits, phrases_),
+          aids_of(score));
+    }
     add(Phrase::TaskWork, quantity_text(physics::Energy(score.work_j), physics::kEnergyUnits, phrases_),
         phrases_.text<Phrase::TaskLargest>(force_text(Force(score.largest_lateral_n), phrases_)));
+  }
+
+  // The force that the hand held for the threshold that it had felt.
+  void add_answer(const scene::TaskScore& score) {
+    const double error = scene::answer_error(score);
+    add(Phrase::TaskAnswer, force_text(Force(score.answer_n), phrases_),
+        phrases_.text<Phrase::TaskThreshold>(force_text(Force(score.threshold_n), phrases_),
+                                             fmt::format("{:+.0f} %", 100.0 * error)));
+    add(Phrase::TaskFound, phrases_[std::abs(error) <= scene::kThresholdWithin ? Phrase::TaskYes : Phrase::TaskNo],
+        aids_of(score));
   }
 
   // Knowledge of the particle nearest to the tip, and the result of the newest look.
@@ -314,7 +329,8 @@ std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
   const std::uint32_t strokes = now.picture != nullptr && now.picture->level > 1 ? 0 : now.push.strokes;
   const std::string pushes = fmt::format("{}", strokes);
   const std::string& medium = phrases.word(now.set->medium);
-  if (const auto pattern = pattern_of(now)) {
+  const auto pattern = now.set->blind ? std::nullopt : pattern_of(now);
+  if (pattern) {
     const std::string off = quantity_text(pattern->match.rms, physics::kLengthUnits, phrases);
     if (pattern->done() && now.picture != nullptr && !now.picture->all_measured) {
       return phrases.text<Phrase::PatternComputed>(off, pushes);

@@ -175,6 +175,17 @@ constexpr std::array kRows{
                   Phrase::SayParticleJammed,
                   Spoken::AtOnce,
                   {{SignalNote{0, 0.260, 147, 139, 0.30, 0.7}}}},
+    HeardEventRow{ParticleFarEnough,
+                  Phrase::HeardFarEnough,
+                  Phrase::SayFarEnough,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.080, 880, 880, 0.24, 0}, SignalNote{0.100, 0.160, 1175, 1175, 0.24, 0}}}},
+    HeardEventRow{BlindTaskDone,
+                  Phrase::HeardBlindTaskDone,
+                  Phrase::SayBlindTaskDone,
+                  Spoken::AtOnce,
+                  {{SignalNote{0, 0.090, 784, 784, 0.24, 0}, SignalNote{0.110, 0.090, 1047, 1047, 0.24, 0},
+                    SignalNote{0.220, 0.240, 1568, 1568, 0.24, 0}}}},
 };
 static_assert(kRows.size() == core::kEnumerators<HeardEvent>.size());
 static_assert([] {

@@ -16,10 +16,11 @@ void ParticleTask::add(const scene::TipSample& sample, bool truth) {
                             .lateral_n = sample.push.lateral_n,
                             .lift_n = sample.push.lift_n,
                             .places = sample.push.digest,
+                            .particle = sample.push.particle,
                             .guided = sample.plan.guided != 0,
                             .carries = sample.push.state == physics::PushState::Carried,
                             .swept = sample.scan.hand == scene::ScanHand::Looks,
-                            .truth = truth});
+                            .truth = truth && !set_.blind});
 }
 
 std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(
@@ -28,6 +29,12 @@ std::optional<std::vector<physics::ParticlePlace>> ParticleTask::unjudged(
   if (!rest || pages.size() < scene::pages_of(static_cast<std::uint32_t>(set_.particles.size()))) return std::nullopt;
   if (scene::digest_of(pages, set_.particles.size()) != *rest) return std::nullopt;
   return places_of({.set = &set_, .pages = pages});
+}
+
+bool ParticleTask::far_enough(std::span<const scene::ParticlePage> pages) const {
+  const auto places = set_.blind ? places_of({.set = &set_, .pages = pages}) : std::nullopt;
+  const auto way = places ? task_.way(*places) : std::nullopt;
+  return way && way->far_enough();
 }
 
 bool ParticleTask::look(std::span<const scene::ParticlePage> pages, const servo::LivePicture* picture) {

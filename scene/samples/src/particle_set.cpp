@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "blind_task_file.h"
 #include "hand_moves.h"
 #include "particle_field.h"
 #include "physics/contact_parameters.h"
@@ -342,12 +343,13 @@ void read_particles(const TomlTable& top, ParticleSet& set) {
   }
   if (top.has("target")) read_targets(top, set);
   if (top.has("pad")) read_pads(top, set);
+  if (top.has("task")) set.blind = read_blind_task(top, set);
 }
 
 ParticleSet read_set(const toml::table& root) {
   const TomlTable top(root);
   top.allow_only({"title", "medium", "note", "tip", "lever", "sample", "ink", "species", "particle", "target", "pad",
-                  "start", "move"});
+                  "task", "start", "move"});
   ParticleSet set;
   set.title = top.text("title");
   set.medium = top.text("medium");

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "particle_field.h"
+
 namespace afm::scene {
 
 using physics::Length;
@@ -34,8 +36,10 @@ std::vector<Vector> positions_of(std::span<const ParticlePlace> places) {
 
 }  // namespace
 
-Pattern pattern_of(const ParticleSet& set) { return {set.targets, set.pads}; }
-Pattern shared_pattern_of(const ParticleSet& set) { return {shared_targets(set), shared_pads(set)}; }
+Pattern pattern_of(const ParticleSet& set) { return {set.targets, set.pads, {}}; }
+Pattern shared_pattern_of(const ParticleSet& set) {
+  return {shared_targets(set), shared_pads(set), field_of(set).middle()};
+}
 
 // The part of the axis within the pad's range of x, then of y (Liang & Barsky, ACM Trans. Graphics 3 (1984) 1).
 bool touches(const Pad& pad, const ParticlePlace& rod, Length length) {

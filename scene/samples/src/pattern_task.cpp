@@ -18,9 +18,10 @@ using physics::EventKind;
 PatternTask::PatternTask(const ParticleSet& set, Pattern pattern)
     : set_(set), pattern_(std::move(pattern)), clear_z_m_(physics::clear_height(set.setup).si) {}
 
-void PatternTask::add(EventKind event) {
+void PatternTask::add(EventKind event, double force_n) {
   const bool runs = task_.score.state == TaskState::Running;
   if (event == EventKind::ParticleLost && runs) ++task_.score.losses;
+  if (event == EventKind::ParticleGave) gave_n_ = force_n;
   if (event == EventKind::PushTakenBack) take_back();
   if (event == EventKind::ParticlesPutBack) put_back();
 }
@@ -40,7 +41,7 @@ void PatternTask::take_back() {
 // The pattern is no longer what it was at the end.
 void PatternTask::go_on() {
   task_.score.state = TaskState::Running;
-  task_.score.rms_m = 0.0;
+  task_.score.rms_m = task_.score.answer_n = 0.0;
   rest_.reset();
 }
 
@@ -54,6 +55,7 @@ void PatternTask::add(const TaskTick& tick) {
   if (!last_) last_ = tick;
   TaskScore& score = task_.score;
   const bool lifted = tick.base_m[2] >= clear_z_m_ && !tick.carries, put = std::exchange(put_, false);
+  if (set_.blind) follow_blind(tick);
   if (lifted && !tick.swept) moving_ = guided_ = false;  // all that a scan sweeps is one stroke
   if (tick.places != last_->places) {
     if (!put) count_stroke(tick);
@@ -107,8 +109,43 @@ std::optional<std::uint64_t> PatternTask::unjudged() const {
 
 void PatternTask::judge(std::span<const physics::ParticlePlace> places) {
   rest_->judged = true;
-  const auto pattern = pattern_state(set_, pattern_, places);
-  if (pattern && pattern->done()) end(pattern->match.rms);
+  if (const auto far = off(places)) end(*far);
+}
+
+// Distance from the goal, if that is reached.
+std::optional<physics::Length> PatternTask::off(std::span<const physics::ParticlePlace> places) const {
+  if (!set_.blind) {
+    const auto pattern = pattern_state(set_, pattern_, places);
+    return pattern && pattern->done() ? std::optional(pattern->match.rms) : std::nullopt;
+  }
+  if (const auto line = way(places)) return line->far_enough() ? std::optional(line->aside) : std::nullopt;
+  return rest_->score.answer_n > 0.0 ? std::optional(physics::Length(0.0)) : std::nullopt;
+}
+
+std::optional<LineWay> PatternTask::way(std::span<const physics::ParticlePlace> places) const {
+  if (!set_.blind || set_.blind->kind != BlindKind::Line) return std::nullopt;
+  const auto& [kind, particle, target] = *set_.blind;
+  return way_along(set_.particles[particle].position - pattern_.origin, pattern_.targets[target].position,
+                   places[particle].position);
+}
+
+// The threshold is that of the newest stroke, before its first slip; the answer is the newest one after that.
+void PatternTask::follow_blind(const TaskTick& tick) {
+  const auto gave_n = std::exchange(gave_n_, std::nullopt);
+  const bool touches = tick.particle != kNoParticle;
+  const auto particle = static_cast<std::size_t>(touches ? tick.particle : 0);
+  task_.touched = task_.touched || touches;
+  TaskScore& score = task_.score;
+  if (set_.blind->kind != BlindKind::Threshold || score.state == TaskState::Done) return;
+  if (gave_n && touches && particle == set_.blind->particle && !moving_) score.threshold_n = *gave_n;
+  if (touches && set_.particles.at(particle).pinned) {
+    return held_.add(tick.time_ns, std::hypot(tick.lateral_n[0], tick.lateral_n[1]));
+  }
+  const auto answer_n = held_.leave();
+  if (!answer_n || !(score.threshold_n > 0.0) || score.state != TaskState::Running) return;
+  score.answer_n = *answer_n;
+  lifted_ns_.reset();
+  rest_.reset();
 }
 
 void PatternTask::end(physics::Length rms) {
@@ -123,10 +160,18 @@ std::string text_of(const TaskScore& score) {
   if (score.state == TaskState::NotBegun) return "not begun";
   const bool done = score.state == TaskState::Done;
   return fmt::format(
-      "{} {:.1f} s{}; pushes: {}, slipped past: {}, taken back: {}, in a groove: {}, particles shown: {}; {} of work, "
+      "{} {:.1f} s{}{}; pushes: {}, slipped past: {}, taken back: {}, in a groove: {}, particles shown: {}; {} of "
+      "work, "
       "at most {} sideways",
       done ? "done in" : "not done after", score.time_s,
-      done ? fmt::format(", {} off", format_quantity(physics::Length(score.rms_m), physics::kLengthUnits, 3)) : "",
+      done && !answered(score)
+          ? fmt::format(", {} off", format_quantity(physics::Length(score.rms_m), physics::kLengthUnits, 3))
+          : "",
+      answered(score) ? fmt::format(", pressed with {} for {}, {:+.0f} %",
+                                    format_quantity(physics::Force(score.answer_n), physics::kForceUnits, 3),
+                                    format_quantity(physics::Force(score.threshold_n), physics::kForceUnits, 3),
+                                    100.0 * answer_error(score))
+                      : "",
       score.strokes, score.losses, score.undos, score.guided, score.truth != 0 ? "yes" : "no",
       format_quantity(physics::Energy(score.work_j), physics::kEnergyUnits, 3),
       format_quantity(physics::Force(score.largest_lateral_n), physics::kForceUnits, 3));

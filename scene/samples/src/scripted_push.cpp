@@ -37,14 +37,19 @@ std::vector<ParticlePlace> places_of(const physics::PushedParticles& particles) 
 class ScriptedTask {
  public:
   explicit ScriptedTask(const ParticleSet& set)
-      : normal_n_per_m_(set.setup.springs.normal.si), task_(set, pattern_of(set)), meeting_(set.setup) {
+      : normal_n_per_m_(set.setup.springs.normal.si),
+        blind_(set.blind),
+        task_(set, pattern_of(set)),
+        meeting_(set.setup) {
     meeting_.begin(set.start);
   }
 
   void follow(const physics::PushedParticles& particles, double time_s, const OperatorsPicture* picture) {
     const PushTick& tick = particles.last();
     const auto events = meeting_.follow(particles, tick.normal.si != 0.0);
-    for (const auto& event : events.all()) task_.add(event.kind);
+    for (const auto& event : events.all()) task_.add(event.kind, event.before.si);
+    if (tick.yields > yields_) task_.add(physics::EventKind::ParticleGave, tick.gave_at.si);
+    yields_ = tick.yields;
     if (!particles.moved().empty()) ++places_;
     add(particles, time_s, picture);
   }
@@ -68,17 +73,20 @@ class ScriptedTask {
                .lateral_n = {lateral.x.si, lateral.y.si},
                .lift_n = touches ? lift_n : 0.0,
                .places = places_,
+               .particle = touches ? static_cast<std::int32_t>(tick.particle) : kNoParticle,
                .carries = tick.state == physics::PushState::Carried,
-               .truth = picture == nullptr});
+               .truth = picture == nullptr && !blind_});
     if (!task_.unjudged()) return;
     if (picture == nullptr) return task_.judge(places_of(particles));
     if (picture->all_measured()) task_.judge(picture->shown());
   }
 
   double normal_n_per_m_;
+  bool blind_;
   PatternTask task_;
   physics::TipMeeting meeting_;
   std::uint64_t places_ = 0;
+  std::uint64_t yields_ = 0;
 };
 
 // Level 2: the pull-offs of spheres that stick scatter.
@@ -102,7 +110,7 @@ class Player {
         all_ticks_(static_cast<std::size_t>(all_ticks(set, script.rate))),
         drift_(physics::kUsualDrift, static_cast<std::uint64_t>(script.seed)),
         particles_(true_setup(set, script), set.particles, set.start) {
-    if (!set.targets.empty()) task_.emplace(set);
+    if (has_task(set)) task_.emplace(set);
     if (script.level > 0) played_.picture.emplace(set.setup, set.particles, set.start, script.level > 1, script.looks);
     now_.tick = particles_.last();
     played_.samples.push_back(now_);

@@ -26,8 +26,9 @@ struct StudyTrial {
   int trial = 1;                  // within its step
   std::optional<double> level{};  // w
   std::string stimulus{}, response{};
-  std::optional<double> value{};  // response of a cycle (N), a drawing (0..1), a question, a push or writing (m)
-  std::optional<bool> right{};    // identify and threshold only, if there is an answer
+  // response of a cycle (N), a drawing (0..1), a question, a push (m; threshold: the force over it) or writing (m)
+  std::optional<double> value{};
+  std::optional<bool> right{};  // identify and threshold only, if there is an answer
   std::optional<double> rt_s{};
   // on from snap-in to pull-off of each of its cycles, or while a particle or a soft sample was touched; empty:
   // unknown, or none of these

@@ -137,13 +137,19 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + kGold + step("type = \"cycle\"\n"),
                 "line 9: step.type: cycle is for lessons without particles"},
         Refusal{kHead + kGold + step(kPush + "until = \"gone\"\n"),
-                "line 10: step.until: gone is unknown; known are moved, target, pattern, lost"},
+                "line 10: step.until: gone is unknown; known are moved, target, pattern, lost, line, "
+                "threshold"},
         Refusal{kHead + kGold + step(kPush + "until = \"pattern\"\nparticle = 1\n"),
                 "line 11: step.particle: is of no use with until = \"pattern\""},
         Refusal{kHead + kGold + step(kPush + "until = \"lost\"\nparticle = 6\n"),
                 "line 11: step.particle: must be a whole number from 1 to 5"},
         Refusal{kHead + kGold + step(kPush + "until = \"target\"\nparticle = 1\ntarget = 0\n"),
                 "line 12: step.target: must be a whole number from 1 to 5"},
+        Refusal{kHead + kGold + step(kPush + "until = \"threshold\"\nparticle = 1\n"),
+                "step.until: needs a particle with pinned = true, which is pressed for the answer"},
+        Refusal{kHead + kGold + step(kPush + "until = \"threshold\"\nparticle = 1\ntarget = 1\n"),
+                "step.target: is of no use with until = \"threshold\""},
+        Refusal{kHead + kGold + step(kPush + "until = \"line\"\nparticle = 1\ntarget = 9\n"), "step.target"},
         Refusal{kHead + kGold + step(kPush + "until = \"moved\"\nparticle = 1\n"), "step.distance: is missing"},
         Refusal{kHead + kGold + step(kPush + "until = \"moved\"\nparticle = 1\ndistance = \"80\"\n"),
                 "line 12: step.distance: "},
@@ -264,7 +270,7 @@ std::vector<std::string> shipped_lessons() {
   return paths;
 }
 
-TEST(ShippedLessons, AreNineThatLoadAndRunToTheirEndInBothLanguages) {
+TEST(ShippedLessons, AreTenThatLoadAndRunToTheirEndInBothLanguages) {
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   std::set<StepKind> kinds;
   std::size_t lessons = 0;
@@ -292,7 +298,7 @@ TEST(ShippedLessons, AreNineThatLoadAndRunToTheirEndInBothLanguages) {
     }
     ++lessons;
   }
-  EXPECT_EQ(lessons, 9U);
+  EXPECT_EQ(lessons, 10U);
   EXPECT_EQ(kinds.size(), kStepKinds.size()) << "the lessons show every type of step";
 }
 

@@ -126,6 +126,46 @@ TEST_F(PushStep, IsDoneOnceTheParticleIsFarEnoughAndTheTipIsLifted) {
   EXPECT_THAT(line_of(row), EndsWith("\t1\t2\t0\t0\t0\t0.2\ttruth\n"));
 }
 
+TEST_F(PushStep, IsDarkFromTheFirstTouchUntilABlindPushIsDone) {
+  auto run = this->run(PushPlan{.until = PushUntil::Line, .particle = 0, .target = 1});
+  run.look(pages_, now_s_);
+  EXPECT_FALSE(run.prompt(now_s_).dark) << "before the first touch";
+  tick(run, HandForce::Full, scene::kNoParticle, kHighM);
+  tick(run, HandForce::Full, 0, 0.0);
+  EXPECT_TRUE(run.prompt(now_s_).dark);
+  EXPECT_FALSE(run.prompt(now_s_).hidden) << "with tones";
+  EXPECT_FALSE(run.prompt(now_s_).far_enough);
+  pages_[0].poses[0].x_m += 110e-9;  // the line is 100 nm long
+  pages_[0].poses[0].y_m -= 3e-9;
+  tick(run, HandForce::Full, 0, 0.0);
+  run.look(pages_, now_s_);
+  EXPECT_TRUE(run.prompt(now_s_).far_enough);
+  lift(run);
+  ASSERT_EQ(run.end(), LessonEnd::Finished);
+  EXPECT_EQ(rows_.at(0).stimulus, "line");
+  EXPECT_NEAR(std::stod(rows_[0].response), 3e-9, 1e-14);
+  EXPECT_THAT(line_of(rows_[0]), EndsWith("\tn/a\n")) << "no aid";
+}
+
+TEST_F(PushStep, IsDarkAndSilentWhileAThresholdIsFelt) {
+  lesson_.set = std::make_shared<const scene::ParticleSet>(test::particle_set("threshold-by-feel"));
+  pages_ = test::start_pages(*lesson_.set);
+  auto run = this->run(PushPlan{.until = PushUntil::Threshold, .particle = 0});
+  run.look(pages_, now_s_);
+  tick(run, HandForce::Full, scene::kNoParticle, kHighM);
+  run.add(scene::TipEvent{.kind = EventKind::ParticleGave, .force_before_n = 0.25e-9});
+  pages_[0].poses[0].x_m += 30e-9;
+  tick(run, HandForce::Full, 0, 0.0);
+  EXPECT_TRUE(run.prompt(now_s_).dark && run.prompt(now_s_).hidden);
+  lift(run);
+  EXPECT_FALSE(run.end()) << "no answer yet";
+  for (int i = 0; i < 1200; ++i) tick(run, HandForce::Full, 1, 0.0);  // 0.2 nN
+  lift(run);
+  ASSERT_EQ(run.end(), LessonEnd::Finished);
+  EXPECT_EQ(rows_.at(0).stimulus, "threshold");
+  EXPECT_NEAR(std::stod(rows_[0].response), 0.8, 1e-6);
+}
+
 TEST_F(PushStep, WaitsUntilAllParticlesAreAtTheirStart) {
   pages_[0].poses[2].x_m += 1e-12;
   auto run = this->run(kMoved);

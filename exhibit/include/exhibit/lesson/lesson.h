@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,24 +69,28 @@ struct ThresholdPlan {
 };
 
 // Events that end a step Push: all but a loss once the tip has been lifted for scene::PatternTask::kRestNs.
-enum class PushUntil { Moved, Target, Pattern, Lost };
+// Line and Threshold are done without the picture (scene::BlindTask).
+enum class PushUntil { Moved, Target, Pattern, Lost, Line, Threshold };
 struct PushUntilRow {
   PushUntil until;
   std::string_view word, meaning;
-  bool from_targets;  // judged by the distance from targets; otherwise by the way of the particle from its start
+  bool from_targets;  // judged by the distance from targets, or from the line to one
 };
 inline constexpr std::array kPushUntils{
     PushUntilRow{PushUntil::Moved, "moved", "the particle is so far from its start", false},
     PushUntilRow{PushUntil::Target, "target", "the particle lies on a target", true},
     PushUntilRow{PushUntil::Pattern, "pattern", "the pattern of the set is done", true},
-    PushUntilRow{PushUntil::Lost, "lost", "the tip has slipped past the particle", false}};
+    PushUntilRow{PushUntil::Lost, "lost", "the tip has slipped past the particle", false},
+    PushUntilRow{PushUntil::Line, "line", "without the picture: the particle is at least as far as a target", true},
+    PushUntilRow{PushUntil::Threshold, "threshold",
+                 "without the picture: a pinned particle has been pressed as hard as this one holds", false}};
 static_assert(core::has_row_for_each(kPushUntils, &PushUntilRow::until));
 constexpr const PushUntilRow& row_of(PushUntil until) { return kPushUntils[core::index_of(until)]; }
 
 struct PushPlan {
   PushUntil until = PushUntil::Pattern;
   std::size_t particle = 0;  // number in the set, from 0; for all but Pattern
-  std::size_t target = 0;    // the same of a target, for Target
+  std::size_t target = 0;    // the same of a target, for Target and Line
   double distance_m = 0;     // least way, only with Moved
 };
 

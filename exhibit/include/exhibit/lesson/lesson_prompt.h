@@ -31,6 +31,8 @@ struct LessonPrompt {
   std::uint32_t cycle = 0;                      // changes with every requested cycle
   bool in_step = false;                         // false in consent, break and end
   bool hidden = false;                          // names, curves, figures and sounds would reveal the answer
+  bool dark = false;                            // a blind push has begun: there is no picture
+  bool far_enough = false;                      // its particle is at the end of its line
   bool of_states = false;                       // hidden state of a swing, to be judged by its tones, too
   std::optional<Condition> condition;
   bool put_back = false;  // all particles are to be put back to their start, or a soft sample is to be level

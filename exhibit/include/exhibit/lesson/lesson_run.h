@@ -99,6 +99,7 @@ class LessonRun {
   HandForce wanted_force() const;
   void repeat_trial(double now_s);  // since a cycle or a push was not felt
   core::Result<void> keep(TrialRow row);
+  void note_result(const TrialRow& row);
 
   const Lesson& lesson_;
   std::span<const curves::SampleModel> samples_;
@@ -117,6 +118,8 @@ class LessonRun {
   bool snapped_in_ = false;
   HandForce force_ = HandForce::None;
   std::optional<HandForce> unfelt_;  // force of the cycle or push that did not count, until one does
+  std::string result_;               // words about the newest blind push
+  std::size_t result_task_ = 0;      // task with which it is said
   bool counted_ = false;             // a cycle of this step counted
   std::optional<LessonEnd> end_;
   std::optional<core::Error> error_;

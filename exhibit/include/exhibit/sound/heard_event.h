@@ -35,15 +35,17 @@ enum class HeardEvent {
   JumpToAttraction,  // it fell back into the attractive one
   ParticleLifted,
   ParticleSetDown,
-  LookedAgain,     // a scan of the particles near the tip begins
-  SurfaceMarked,   // the tip begins to press a soft sample in
-  TipStopped,      // it cannot sink deeper
-  HandTooFast,     // the hand moves faster than the tip scratches
-  InkFlows,        // a tip with ink touches the sample
-  LiquidTorn,      // it comes off
-  ParticleSwept,   // a scan that presses too hard begins to push a particle
-  ParticleAstray,  // a pushed particle has come off the way of the tip
-  ParticleJammed,  // the tip presses particles hard that cannot move
+  LookedAgain,        // a scan of the particles near the tip begins
+  SurfaceMarked,      // the tip begins to press a soft sample in
+  TipStopped,         // it cannot sink deeper
+  HandTooFast,        // the hand moves faster than the tip scratches
+  InkFlows,           // a tip with ink touches the sample
+  LiquidTorn,         // it comes off
+  ParticleSwept,      // a scan that presses too hard begins to push a particle
+  ParticleAstray,     // a pushed particle has come off the way of the tip
+  ParticleJammed,     // the tip presses particles hard that cannot move
+  ParticleFarEnough,  // without a picture: a pushed particle is at the end of its line
+  BlindTaskDone,      // a task without a picture is done
 };
 
 }  // namespace afm::exhibit

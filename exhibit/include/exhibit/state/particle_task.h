@@ -18,17 +18,23 @@ namespace afm::exhibit {
 // The task of a set of particles, from what a servo publishes, live or replayed. One thread.
 class ParticleTask {
  public:
-  // `set` has targets and must outlive the object.
+  // `set` has a task (scene::has_task()) and must outlive the object.
   explicit ParticleTask(const scene::ParticleSet& set);
 
   // Call in order of time, with the events of a tick before its sample. `truth`: there is no picture, so that the
-  // particles themselves are shown.
-  void add(const scene::TipEvent& event) { task_.add(event.kind); }
+  // particles themselves are shown, in other than blind tasks.
+  void add(const scene::TipEvent& event) { task_.add(event.kind, event.force_before_n); }
   void add(const scene::TipSample& sample, bool truth = true);
 
   // Call with the newest pages after the newest sample: ends the task if these are the places that it waits to see.
   // True if it ended. With a picture, it ends only once all that was pushed has been measured, by the measured places.
   bool look(std::span<const scene::ParticlePage> pages, const servo::LivePicture* picture = nullptr);
+
+  // The wall is to be dark (scene::PatternTask::dark()).
+  bool dark() const { return task_.dark(); }
+
+  // True once the particle of a task along a line is far enough, so that the tip may be lifted.
+  bool far_enough(std::span<const scene::ParticlePage> pages) const;
 
   // Places of all particles, if the pages hold those that the task waits to see; for another criterion than the
   // pattern, which then ends the task by end().

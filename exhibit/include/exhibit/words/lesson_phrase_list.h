@@ -31,6 +31,8 @@
   PHRASE(LessonForceWasOff, "lesson-force-was-off", "", kParagraph)          \
   PHRASE(LessonForceWasWeak, "lesson-force-was-weak", "", kParagraph)        \
   PHRASE(LessonForceWasOn, "lesson-force-was-on", "", kParagraph)            \
+  PHRASE(LessonLineWas, "lesson-line-was", "distance", kLine)                \
+  PHRASE(LessonThresholdWas, "lesson-threshold-was", "share", kLine)         \
   PHRASE(LessonPushWasOff, "lesson-push-was-off", "", kParagraph)            \
   PHRASE(LessonPushWasWeak, "lesson-push-was-weak", "", kParagraph)          \
   PHRASE(LessonWritingWasOff, "lesson-writing-was-off", "", kParagraph)      \

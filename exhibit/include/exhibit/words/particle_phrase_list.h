@@ -16,6 +16,16 @@
   PHRASE(TaskAided, "task-aided", "count guided", kLine)                   \
   PHRASE(TaskShown, "task-shown", "", kLine)                               \
   PHRASE(TaskAidedShown, "task-aided-shown", "count guided", kLine)        \
+  PHRASE(TaskAnswer, "task-answer", "", kLine)                             \
+  PHRASE(TaskThreshold, "task-threshold", "force error", kLine)            \
+  PHRASE(TaskFound, "task-found", "", kLine)                               \
+  PHRASE(TaskYes, "task-yes", "", kLine)                                   \
+  PHRASE(TaskNo, "task-no", "", kLine)                                     \
+  PHRASE(BlindFeel, "blind-feel", "", kLine)                               \
+  PHRASE(BlindPress, "blind-press", "", kLine)                             \
+  PHRASE(BlindLine, "blind-line", "", kLine)                               \
+  PHRASE(BlindLift, "blind-lift", "", kLine)                               \
+  PHRASE(PictureDark, "picture-dark", "", kLine)                           \
   PHRASE(TaskWork, "task-work", "", kLine)                                 \
   PHRASE(TaskLargest, "task-largest", "force", kLine)                      \
   PHRASE(PlanWay, "plan-way", "", kLine)                                   \

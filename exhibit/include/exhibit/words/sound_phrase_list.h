@@ -36,6 +36,8 @@
   PHRASE(HeardAstrayLeft, "heard-astray-left", kEventPlaces, kLine)                  \
   PHRASE(HeardAstrayRight, "heard-astray-right", kEventPlaces, kLine)                \
   PHRASE(HeardParticleJammed, "heard-particle-jammed", kEventPlaces, kLine)          \
+  PHRASE(HeardFarEnough, "heard-far-enough", kEventPlaces, kLine)                    \
+  PHRASE(HeardBlindTaskDone, "heard-blind-task-done", kEventPlaces, kLine)           \
   PHRASE(SaySnapIn, "say-snap-in", kEventPlaces, kLine)                              \
   PHRASE(SayPullOff, "say-pull-off", kEventPlaces, kLine)                            \
   PHRASE(SaySlip, "say-slip", kEventPlaces, kLine)                                   \
@@ -69,6 +71,8 @@
   PHRASE(SayAstrayLeft, "say-astray-left", kEventPlaces, kLine)                      \
   PHRASE(SayAstrayRight, "say-astray-right", kEventPlaces, kLine)                    \
   PHRASE(SayParticleJammed, "say-particle-jammed", kEventPlaces, kLine)              \
+  PHRASE(SayFarEnough, "say-far-enough", kEventPlaces, kLine)                        \
+  PHRASE(SayBlindTaskDone, "say-blind-task-done", kEventPlaces, kLine)               \
   PHRASE(OnePiconewton, "piconewton", "number", kLine)                               \
   PHRASE(Piconewtons, "piconewtons", "number", kLine)                                \
   PHRASE(OneNanonewton, "nanonewton", "number", kLine)                               \

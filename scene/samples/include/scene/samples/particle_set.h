@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "physics/friction/sideways.h"
 #include "physics/manipulation/pushed_particles.h"
 #include "physics/units.h"
+#include "scene/samples/blind_task.h"
 #include "scene/samples/sourced_value.h"
 #include "scene/shared/particle_blocks.h"
 
@@ -50,6 +52,7 @@ struct ParticleSet {
   std::vector<physics::PlacedParticle> particles;
   std::vector<physics::ParticlePlace> targets;  // places of the pattern to be formed; may be empty
   std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
+  std::optional<BlindTask> blind;               // the task, instead of the pattern
   physics::LeverBase start;
   std::vector<HandMove> moves;
   std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
@@ -62,6 +65,9 @@ struct ParticleSet {
 
 // True if the tip leaves marks instead of pushing particles.
 inline bool leaves_marks(const ParticleSet& set) { return set.soft != nullptr || set.ink != nullptr; }
+
+// True if a person who pushes the particles gets a score.
+inline bool has_task(const ParticleSet& set) { return !set.targets.empty() || set.blind; }
 
 inline constexpr std::size_t kMostTargets = 32;
 inline constexpr std::size_t kMostPads = 8;

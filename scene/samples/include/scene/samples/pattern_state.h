@@ -25,6 +25,7 @@ struct PatternState {
 struct Pattern {
   std::vector<physics::ParticlePlace> targets;
   std::vector<Pad> pads;
+  physics::Sideways<physics::Length> origin{};  // place of this frame's origin in the frame of the file
 };
 Pattern pattern_of(const ParticleSet& set);         // in the frame of the file
 Pattern shared_pattern_of(const ParticleSet& set);  // pattern in the frame of a shared scene

@@ -19,19 +19,21 @@ namespace afm::scene {
 // Part of a tick from which the score is computed. Places in one frame, that of the targets.
 struct TaskTick {
   std::int64_t time_ns = 0;
-  std::array<double, 3> base_m{};     // apex on the unbent lever
-  std::array<double, 2> lateral_n{};  // force of the particles on the lever, along x and y
-  double lift_n = 0;                  // the same, upwards
-  std::uint64_t places = 0;           // changes whenever a particle has moved
-  bool guided = false;                // a groove guides the hand
-  bool carries = false;               // true: a particle hangs on the tip, so that the pattern is not left
-  bool swept = false;                 // a scan pushes the particles, not the hand
-  bool truth = false;                 // the particles are shown, not a picture of them
+  std::array<double, 3> base_m{};       // apex on the unbent lever
+  std::array<double, 2> lateral_n{};    // force of the particles on the lever, along x and y
+  double lift_n = 0;                    // the same, upwards
+  std::uint64_t places = 0;             // changes whenever a particle has moved
+  std::int32_t particle = kNoParticle;  // touched one
+  bool guided = false;                  // a groove guides the hand
+  bool carries = false;                 // true: a particle hangs on the tip, so that the pattern is not left
+  bool swept = false;                   // a scan pushes the particles, not the hand
+  bool truth = false;                   // the particles are shown, not a picture of them
 };
 
-// A task: to push the particles of a set to its pattern. It begins with the first push, ends once the pattern is done
-// and the hand has been lifted for kRestNs, and begins again when all particles are put back. If that is undone, the
-// task before continues, with its clock. So does a task that has ended, if a push from before its end is taken back.
+// A task: to push the particles of a set to its pattern, or its BlindTask. It begins with the first push, ends once the
+// pattern is done and the hand has been lifted for kRestNs, and begins again when all particles are put back. If that
+// is undone, the task before continues, with its clock. So does a task that has ended, if a push from before its end is
+// taken back.
 //
 // The score follows only from ticks and events, so that a replay gives the same score. A caller that sees the particles
 // less often than every tick, as a frame of the wall does, misses the end only if a push moves a particle after the
@@ -44,7 +46,8 @@ class PatternTask {
   PatternTask(const ParticleSet& set, Pattern pattern);
 
   // Call in order of time, with the events of a tick before the tick. Other events than those of particles are ignored.
-  void add(physics::EventKind event);
+  // `force_n`: lateral force before the event.
+  void add(physics::EventKind event, double force_n = 0.0);
   void add(const TaskTick& tick);
 
   // Places at which the particles have lain since the hand was lifted for kRestNs, unless they have been judged: call
@@ -61,12 +64,19 @@ class PatternTask {
 
   const TaskScore& score() const { return task_.score; }
 
+  // The wall is to be dark: a blind task has begun with a touch, and is not done.
+  bool dark() const { return set_.blind && task_.touched && task_.score.state != TaskState::Done; }
+
+  // Way of the pushed particle, only in a task along a line; `places` as for judge().
+  std::optional<LineWay> way(std::span<const physics::ParticlePlace> places) const;
+
  private:
   struct Task {
     TaskScore score;
     std::int64_t begun_ns = 0;
     std::uint32_t kept_strokes = 0;  // strokes that have not been taken back
     std::uint32_t done_strokes = 0;  // kept ones when the task ended
+    bool touched = false;            // the tip has touched a particle
   };
   struct Rest {
     std::int64_t lifted_ns = 0;
@@ -80,6 +90,8 @@ class PatternTask {
   void count_stroke(const TaskTick& tick);
   void count_guidance(const TaskTick& tick);
   void count_work(const TaskTick& tick);
+  void follow_blind(const TaskTick& tick);
+  std::optional<physics::Length> off(std::span<const physics::ParticlePlace> places) const;
 
   const ParticleSet& set_;
   Pattern pattern_;
@@ -91,7 +103,9 @@ class PatternTask {
   bool moving_ = false;  // the current stroke has moved a particle
   bool guided_ = false;  // it has been counted as guided
   std::optional<std::int64_t> lifted_ns_;
-  std::optional<Rest> rest_;  // at the current places, even if the hand has come down since
+  std::optional<double> gave_n_;  // force at which a particle has given in the next tick
+  HeldForce held_;                // force on a pinned particle
+  std::optional<Rest> rest_;      // at the current places, even if the hand has come down since
 };
 
 // The score in one line, for logs and reports.

@@ -10,13 +10,15 @@ namespace afm::scene {
 // Done: the pattern is done and the hand was lifted; the score no longer changes.
 enum class TaskState : std::uint32_t { NotBegun = 0, Running = 1, Done = 2 };
 
-// Score of a person who pushes particles to a pattern, from the first push of the task on
+// Score of a person who pushes particles to a pattern, or without seeing them, from the first push of the task on
 // (scene/samples/pattern_task.h).
 struct TaskScore {
   double time_s = 0;             // time since the first push; when done, up to the lift of the hand
-  double rms_m = 0;              // root mean square distance from the pattern when done, 0 before
+  double rms_m = 0;              // root mean square distance from the pattern, or from a line, when done, 0 before
   double work_j = 0;             // work of the hand against the particles
   double largest_lateral_n = 0;  // force on the lever
+  double threshold_n = 0;        // lateral force at which a particle gave, 0 unless it is to be felt
+  double answer_n = 0;           // force with which a pinned particle was then pressed; 0: not yet
   std::uint32_t strokes = 0;     // times that the tip came down and moved a particle
   std::uint32_t losses = 0;      // times that the tip went past a particle that it had pushed
   std::uint32_t undos = 0;       // pushes taken back, which is an aid
@@ -27,12 +29,20 @@ struct TaskScore {
   bool operator==(const TaskScore&) const = default;
 };
 
+// A threshold that was to be felt has its answer.
+constexpr bool answered(const TaskScore& score) { return score.answer_n > 0.0; }
+
+// The answer over the threshold, less one. Only if answered.
+constexpr double answer_error(const TaskScore& score) { return score.answer_n / score.threshold_n - 1.0; }
+
 template <class Visit, RecordOf<TaskScore>... Record>
 constexpr void for_each_field(Visit&& visit, Record&... score) {
   visit("time_s", score.time_s...);
   visit("rms_m", score.rms_m...);
   visit("work_J", score.work_j...);
   visit("largest_lateral_N", score.largest_lateral_n...);
+  visit("threshold_N", score.threshold_n...);
+  visit("answer_N", score.answer_n...);
   visit("strokes", score.strokes...);
   visit("losses", score.losses...);
   visit("undos", score.undos...);
