@@ -53,15 +53,15 @@ std::vector<Part> instrument() {
   Surface head = block({-46 * kMm, -18 * kMm, 34 * kMm}, {46 * kMm, 96 * kMm, 98 * kMm}, 16 * kMm, 6 * kMm);
   add_placed(head, rod(24 * kMm, 96 * kMm, 150 * kMm, 3 * kMm), {{0, 18 * kMm, 0}});
 
-  Surface metal = rod(13 * kMm, -64 * kMm, -9 * kMm, 0.8 * kMm);  // the scanner and its stage
-  add_placed(metal, rod(17 * kMm, -9.5 * kMm, -2.4 * kMm, 0.5 * kMm), {});
+  Surface metal = rod(13 * kMm, -64 * kMm, -9 * kMm, 0.8 * kMm, 4);  // the scanner and its stage
+  add_placed(metal, rod(17 * kMm, -9.5 * kMm, -2.4 * kMm, 0.5 * kMm, 5), {});
   add_placed(metal, rod(15 * kMm, 150 * kMm, 188 * kMm, 1.5 * kMm), {{0, 18 * kMm, 0}});
   Surface trim;
   for (const double x : {47 * kMm, -59 * kMm}) {  // focus knobs
     add_placed(trim, rod(15 * kMm, 0, 12 * kMm, 1.5 * kMm), {{x, 66 * kMm, 62 * kMm}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}});
   }
   add_placed(trim, rod(24.6 * kMm, 112 * kMm, 120 * kMm, 0.8 * kMm), {{0, 18 * kMm, 0}});
-  Surface puck = rod(7.5 * kMm, -1.4 * kMm, -0.36 * kMm, 0.15 * kMm);
+  Surface puck = rod(7.5 * kMm, -1.4 * kMm, -0.36 * kMm, 0.15 * kMm, 5);
 
   // the objective that looks down on the lever, its lens above the holder
   Surface barrel = rod(8 * kMm, 26 * kMm, 36 * kMm, 1 * kMm);
@@ -112,7 +112,7 @@ std::vector<Part> holder() {
   add_placed(body, block({-13 * kMm, -5 * kMm, 4.6 * kMm}, {-4 * kMm, 5 * kMm, 36 * kMm}, 2 * kMm, 0.4 * kMm), {});
   add_prism(clip, rounded_rectangle({-3.2 * kMm, -0.5 * kMm}, {-1.0 * kMm, 0.5 * kMm}, 0.2 * kMm, 2), 0.31 * kMm,
             0.46 * kMm, 0.05 * kMm);
-  add_prism(clip, circle(0.9 * kMm, 3), 4.9 * kMm, 5.4 * kMm, 0.1 * kMm);
+  add_prism(clip, circle(0.9 * kMm, 4), 4.9 * kMm, 5.4 * kMm, 0.1 * kMm);
   return placed({{std::move(body), ceramic()}, {std::move(clip), steel()}}, lever_placement());
 }
 

@@ -126,6 +126,20 @@ TEST_F(InstrumentTest, TheLightMeetsTheLeversUpperFaceAtEveryBend) {
   }
 }
 
+// Above particles a raised hand lifts it beyond the banner: the laser shone upwards out of the picture.
+TEST_F(InstrumentTest, NoLightFollowsALeverThatIsLiftedOutOfThePicture) {
+  for (const double height : {1.3, 6.0}) {
+    WallState state{.material = 0};
+    state.tip.z_m = height * z_joc(0);
+    const render::FrameState lifted = frame(state);
+    const auto radius = [&](const char* part) { return glm::length(glm::dvec3(lifted.room_from_node[node(part)][0])); };
+    for (const char* part : {"optics/beam", "optics/beam-reflected", "optics/spot"}) {
+      EXPECT_EQ(radius(part) > 1e-4, height < 2.0) << part << " at " << height;
+    }
+    EXPECT_LT(lifted.room_from_node[node("optics/laser")][2].y, 0.0) << height;
+  }
+}
+
 TEST_F(InstrumentTest, LaserAndPhotodiodeAreSeenBelowTheBannerAndBetweenThePanels) {
   const render::FrameState state = frame({.material = 0});
   for (const char* part : {"optics/laser", "optics/spot"}) {

@@ -209,6 +209,11 @@ void Instrument::place_optics(const scene::Scene& scene, const Setting& setting,
   const dvec3 lit = dvec3(kLeverDrawnLength, 0.0, pose.end) + kLeverDrawnThickness * face;
   const dvec3 lever_end(scene.nodes[sample_frame_].parent_from_node * pose.frame_from_lever * glm::dvec4(lit, 1.0));
 
+  // a lever that is lifted out of the picture, as above particles, gets no light: it would be hit from below
+  constexpr double kUnseen = 1e-6;  // radius
+  const bool dark = lever_end.y > kLaser.y;
+  const double beam_radius = dark ? kUnseen : kBeamRadius;
+
   // the diode's direction is between lever and viewer, so that its four quadrants and the spot are visible
   const dmat4 photodiode =
       looking_along(kPhotodiode, glm::normalize(dvec3(0.0, 0.2, 0.0) - kPhotodiode) + kTowardsViewer);
@@ -217,11 +222,11 @@ void Instrument::place_optics(const scene::Scene& scene, const Setting& setting,
       kPhotodiodeHalfSize;
   const dmat4 spot = photodiode * glm::translate(dmat4(1.0), dvec3(0.0, reach, 0.004));
 
-  set(laser_, looking_along(kLaser, lever_end - kLaser));
+  set(laser_, looking_along(kLaser, (dark ? dvec3(0.0) : lever_end) - kLaser));
   set(photodiode_, photodiode);
-  set(spot_, glm::scale(spot, dvec3(kSpotRadius)));
-  set(beam_in_, stretched(kLaser, lever_end, kBeamRadius));
-  set(beam_out_, stretched(lever_end, dvec3(spot[3]), kBeamRadius));
+  set(spot_, glm::scale(spot, dvec3(dark ? kUnseen : kSpotRadius)));
+  set(beam_in_, stretched(kLaser, lever_end, beam_radius));
+  set(beam_out_, stretched(lever_end, dvec3(spot[3]), beam_radius));
 }
 
 // The plate below a sample, and below that its body, which ends in the floor, wherever the wand has moved them.

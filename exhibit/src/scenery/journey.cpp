@@ -27,8 +27,10 @@ constexpr double kBelowPixel = 0.0015;  // size in layout units
 
 // Scales between which the tip's soft shade replaces the shadows of the triangles.
 constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
-// Scales between which the sample's atoms come out of its ground, once they fill the view.
-constexpr double kAtomsFromOrders = 8.2, kAtomsAtOrders = 8.5, kAtomsHiddenM = 0.36e-9;
+// The sample's atoms come out of its ground over this range of scales, once those up to this distance from the contact
+// point fill the view: farther ones are drawn with few corners (assets/generate/journey_ground.cpp).
+constexpr double kAtomsRange = 0.3, kAtomsAtOrders = 8.5, kAtomsAtLast = 8.95, kAtomsReachM = 6.45e-9;
+constexpr double kAtomsHiddenM = 0.36e-9;
 
 // Among the atoms everything is in the tip's shade, which leaves them some light.
 constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
@@ -56,6 +58,21 @@ void for_each_place(const scene::Scene& scene, scene::NodeIndex frame, scene::No
   }
 }
 
+double tilt_under_tip(const Journey::View& view) {
+  return std::clamp(kLowViewRad - std::atan2(view.eye.y, view.eye.z), kLeastTiltRad, kSampleTiltRad);
+}
+
+// Distance from the contact point, in layout units, of the farthest ground that is seen at the screen's lower border.
+double ground_at_border(const Journey::View& view, double tilt_rad) {
+  const dvec3 up(0.0, std::cos(tilt_rad), std::sin(tilt_rad));
+  double farthest = 0.0;
+  for (const dvec3& corner : view.lower_corners) {
+    const double above = glm::dot(up, view.eye), falls = above - glm::dot(up, corner);
+    if (falls > 0.0) farthest = std::max(farthest, glm::length(view.eye + (corner - view.eye) * (above / falls)));
+  }
+  return farthest;
+}
+
 double scale_of(double orders) { return std::pow(10.0, std::clamp(orders, 0.0, kJourneyOrders)); }
 
 }  // namespace
@@ -68,7 +85,10 @@ Phrase journey_place(double orders) {
   return after(Phrase::PlaceBench, static_cast<std::size_t>(end - kEnds.begin()));
 }
 
-Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout) {
+Journey::Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout, const View& view)
+    : low_tilt_rad_(tilt_under_tip(view)),
+      atoms_at_orders_(std::clamp(std::log10(std::max(ground_at_border(view, low_tilt_rad_), 1e-9) / kAtomsReachM),
+                                  kAtomsAtOrders, kAtomsAtLast)) {
   frame_ = build.frame("journey-frame", layout, dmat4(1.0));
   const scene::NodeIndex root = build.model_in_frame_of("journey", "journey.glb", "journey", frame_);
   measure(scene, root, std::nullopt);
@@ -126,13 +146,12 @@ void Journey::measure_tip(const scene::Scene& scene, ModelBuilder& build) {
   tip_.slope = 0.5 * (edge + face) / tip_.height_m;
 }
 
-void Journey::place(double orders, double eye_above_rad, std::vector<dmat4>& local) const {
+void Journey::place(double orders, std::vector<dmat4>& local) const {
   const double low = eased((orders - kLowFromOrders) / (kLowAtOrders - kLowFromOrders));
-  const double low_tilt = std::clamp(kLowViewRad - eye_above_rad, kLeastTiltRad, kSampleTiltRad);
-  const double tilt = kSampleTiltRad + (low_tilt - kSampleTiltRad) * low;
+  const double tilt = kSampleTiltRad + (low_tilt_rad_ - kSampleTiltRad) * low;
   const double c = std::cos(tilt), s = std::sin(tilt);
   local[frame_] = glm::scale(frame_matrix({1, 0, 0}, {0, s, -c}, {0, c, s}, dvec3(0.0)), dvec3(scale_of(orders)));
-  const double risen = eased((orders - kAtomsFromOrders) / (kAtomsAtOrders - kAtomsFromOrders));
+  const double risen = eased((orders - atoms_at_orders_ + kAtomsRange) / kAtomsRange);
   for (const scene::NodeIndex atoms : ground_atoms_) {
     local[atoms] = glm::translate(local[atoms], dvec3(0.0, 0.0, -kAtomsHiddenM * (1.0 - risen)));
   }
@@ -142,7 +161,7 @@ bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) co
   const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.node == node; });
   if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
   const bool of_ground = std::find(ground_atoms_.begin(), ground_atoms_.end(), node) != ground_atoms_.end();
-  if (of_ground && orders <= kAtomsFromOrders) return false;
+  if (of_ground && orders <= atoms_at_orders_ - kAtomsRange) return false;
   const double scale = scale_of(orders);
   return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
 }

@@ -60,8 +60,10 @@ WallPlaces::WallPlaces(const StagePlace& stage, std::size_t swatches) {
 // Places shelf and wand in front of the wall, no nearer than the eyes can look without strain.
 void WallPlaces::lay_out_front(const StagePlace& stage) {
   const double unit = shape_.unit_m;
-  const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
-  eye_above_rad_ = std::atan2(eye.y, eye.z);
+  const glm::dmat4 layout_from_room = glm::inverse(room_from_layout_);
+  const auto in_layout = [&](const dvec3& place_m) { return dvec3(layout_from_room * glm::dvec4(place_m, 1.0)); };
+  const dvec3 eye = in_layout(stage.viewer_m);
+  journey_view_ = {.eye = eye, .lower_corners = {in_layout(stage.main.lower_left), in_layout(stage.main.lower_right)}};
   const scene::ComfortZone zone =
       scene::comfort_zone(eye.z * unit, stage.ipd_m, kComfortMargin * scene::kComfortableDisparityRad);
   const double nearest = eye.z - zone.nearest_m / unit;

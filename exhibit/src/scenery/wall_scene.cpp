@@ -55,7 +55,7 @@ void WallScene::add_frames(ModelBuilder& build, const UserModels& own) {
   ray_ = build.node("wand/ray");
   marks_ = WallMarks(build, scene_, layout_, sample_frame_);
   analogy_ = Analogy(build, scene_, sample_frame_);
-  journey_ = Journey(build, scene_, layout_);
+  journey_ = Journey(build, scene_, layout_, places_.journey_view());
   if (own.particles) particles_.emplace(*own.particles, build, scene_, sample_frame_);
   height_bar_ = build.part(height_bar(kHeightBarWidth / kHeightBarHeight), "height-bar", layout_);
   build.part(relief_mesh(), "image", sample_frame_);

@@ -117,7 +117,7 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
   }
   if (state.centerpiece == Centerpiece::Analogy) analogy_.place(analogy_heights(state), local);
   if (state.centerpiece == Centerpiece::Journey) {
-    journey_.place(state.journey_orders, places_.eye_above_rad(), local);
+    journey_.place(state.journey_orders, local);
     marks_.place_gap(dvec3(0.0), journey_.gap_m() * dvec3(local[journey_.frame()][2]), local);
   }
   return local;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,17 +27,23 @@ Phrase journey_place(double orders);
 // size below one common frame that scales; transforms are composed in double precision.
 class Journey {
  public:
+  // Places in layout units from the contact point: the viewer's eyes, and the lower corners of the screen.
+  struct View {
+    glm::dvec3 eye{0.0, 0.0, 1.0};
+    std::array<glm::dvec3, 2> lower_corners{};
+  };
+
   Journey() = default;
-  // Adds its nodes below `layout`, whose units it uses.
-  Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout);
+  // Adds its nodes below `layout`, whose units it uses. Under the tip, the ground is turned so that the eyes are below
+  // the ball of the tip.
+  Journey(ModelBuilder& build, scene::Scene& scene, scene::NodeIndex layout, const View& view);
 
   // Loads the sample's ground "ground-LOOK.glb", once per look, and returns its number.
   std::size_t add_ground(ModelBuilder& build, scene::Scene& scene, const std::string& look);
 
-  // Places all parts, the samples' atoms below their ground until they fill the view. Clamps `orders` to 0 to
-  // kJourneyOrders. `eye_above_rad` is the angle of the viewer above the layout's level, as seen from the contact
-  // point: under the tip, the ground is turned so that the eyes are below the ball of the tip.
-  void place(double orders, double eye_above_rad, std::vector<glm::dmat4>& local) const;
+  // Places all parts, the samples' atoms below their ground until they fill the view down to its lower border. Clamps
+  // `orders` to 0 to kJourneyOrders.
+  void place(double orders, std::vector<glm::dmat4>& local) const;
 
   // Returns whether a node below the journey's frame needs drawing: not in the fog, not below the ground, and at least
   // a pixel large.
@@ -77,6 +85,8 @@ class Journey {
   void measure(const scene::Scene& scene, scene::NodeIndex first, std::optional<std::size_t> ground);
 
   scene::NodeIndex frame_ = 0;
+  double low_tilt_rad_ = 0;     // the ground's, under the tip
+  double atoms_at_orders_ = 0;  // the samples' atoms are out of the ground
   Tip tip_;
   std::vector<Part> parts_;
   std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // those with an outline, and those of the samples

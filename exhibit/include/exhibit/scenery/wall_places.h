@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "exhibit/scenery/journey.h"
 #include "exhibit/scenery/stage_place.h"
 #include "exhibit/scenery/wall_layout.h"
 #include "exhibit/state/wall_state.h"
@@ -23,8 +24,8 @@ class WallPlaces {
 
   // Origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre.
   const glm::dmat4& room_from_layout() const { return room_from_layout_; }
-  // Angle of the viewer above the layout's level, as seen from the contact point.
-  double eye_above_rad() const { return eye_above_rad_; }
+  // Of the whole main screen.
+  const Journey::View& journey_view() const { return journey_view_; }
   double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
   double height_bar_x() const { return height_bar_x_; }
@@ -78,7 +79,7 @@ class WallPlaces {
   render::PanelPlacement right_of_data(double inset) const;
 
   glm::dmat4 room_from_layout_{1.0};
-  double eye_above_rad_ = 0;
+  Journey::View journey_view_;
   glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
   WallShape shape_;
   double half_width_ = 0;  // half width of the composition in layout units
