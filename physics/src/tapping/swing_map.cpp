@@ -73,8 +73,8 @@ std::optional<DirectSwing> SwingMap::rest_near(const TapState& point, Length z) 
   return fixed && fixed->stable ? settled_near(fixed->at, z) : std::nullopt;
 }
 
-// Where the steps of direct integration make the map uneven, as for a soft lever deep in the sample, Newton's method
-// does not end: the swing itself comes to rest.
+// For where the steps of direct integration make the map uneven, as under a soft lever deep in the sample, so that
+// Newton's method does not end: the point at which the swing itself rests.
 std::optional<SwingMap::Point> SwingMap::rest_of(Point at, Length z, std::span<const Point> known) {
   constexpr double kNear = 0.03, kRests = 1e-4;  // shares of the free amplitude
   const auto is_near = [&](Point other) { return std::abs(other - at) < kNear * a0_m_; };

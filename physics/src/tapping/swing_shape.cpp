@@ -30,7 +30,7 @@ void SwingShape::straighten() noexcept {
   straight_ = {};
 }
 
-// Means over both ways.
+// Mean and first harmonic over both ways.
 SwingShape::Straight SwingShape::straight_part_of(const Nodes& nodes) const noexcept {
   Straight straight;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -47,12 +47,16 @@ double SwingShape::finish() noexcept {
   const auto end = newest.begin() + static_cast<std::ptrdiff_t>(count_);
   if (!std::is_sorted(newest.begin(), end, before)) std::sort(newest.begin(), end, before);
   double p = 0.0, c = 0.0;
-  const auto add = [&](const Node& node, double force) {
-    p += response_.p_of(force, node.angle, node.of_angle, node.turned);
-    c += force * node.of_angle.cosine;
+  const auto sum_up = [&] {
+    p = c = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Node& node = newest[i];
+      const double force = node.force - node.weight * straight_.at(node.of_angle);
+      p += response_.p_of(force, node.angle, node.of_angle, node.turned);
+      c += force * node.of_angle.cosine;
+    }
   };
-  for (std::size_t i = 0; i < count_; ++i)
-    add(newest[i], newest[i].force - newest[i].weight * straight_.at(newest[i].of_angle));
+  sum_up();
   const double p_more = p - p_, c_more = c - c_;
   double weight = 0.0, square = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -63,9 +67,7 @@ double SwingShape::finish() noexcept {
   }
   if (exact_) {
     straight_ = straight_part_of(newest);
-    p = c = 0.0;
-    for (std::size_t i = 0; i < count_; ++i)
-      add(newest[i], newest[i].force - newest[i].weight * straight_.at(newest[i].of_angle));
+    sum_up();
   }
   p_ = p;
   c_ = c;

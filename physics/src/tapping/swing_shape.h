@@ -84,9 +84,9 @@ class SwingShape {
 
   HarmonicResponse response_;
   bool exact_;
-  Straight straight_;          // of the complete quadrature; 0 unless exact
-  double p_ = 0.0, c_ = 0.0;   // of F less that
-  Turned before_{0.0, 0.0};    // integrals of it times the cosine and sine of the turned angle, up to the newest node
+  Straight straight_;          // part of F in the complete quadrature that bends nothing; 0 unless exact
+  double p_ = 0.0, c_ = 0.0;   // P and C of the rest of F
+  Turned before_{0.0, 0.0};    // integrals of the rest times cosine and sine of the turned angle, up to the newest node
   double rate_squares_ = 0.0;  // integral of (dy/dt)^2 up to it
   std::array<Nodes, 2> nodes_;
   std::size_t filling_ = 0;  // the newer quadrature; the other one is complete
