@@ -22,13 +22,14 @@ set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_termi
 # afm_test(NAME folder.subject SOURCES ... LIBRARIES ... LABELS ... [NEEDS target ...] [TIMEOUT seconds] [OPTIMISED] [SERIAL] [DRAWS]
 #          [CASES | SUITES] [DEEP filter] [ONLY_DEEP filter] [PRETENDED_DEVICES])
 # One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
-# folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Three cases run side by
-# side, two in deep checks and under AddressSanitizer; nothing runs beside one that is SERIAL, as everything of label realtime is. Those of label hand wait more than they compute:
-# scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the place of two and begins before those that do
-# not, and one that measures a speed is SERIAL.
-# The tests that `filter` names draw more in a second case, NAME.deep of label deep (tests/support/deep.h). Those that ONLY_DEEP names,
-# a filter too but suites with SUITES, are left out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it
-# under umockdev.
+# folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Three cases run
+# side by side, two under AddressSanitizer; nothing runs beside one that is SERIAL, as everything of label realtime is. Those of
+# label hand wait more than they compute: scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the
+# place of two and begins before those that do not, and one that measures a speed is SERIAL.
+# A filter is one of GoogleTest's patterns, or several with colons between them. The tests that a pattern of DEEP names draw more in
+# a case of their own, NAME.deep.PATTERN of label deep (tests/support/deep.h). Those that ONLY_DEEP names (suites with SUITES) are left
+# out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES
+# runs it under umockdev.
 function(afm_test)
   cmake_parse_arguments(T "OPTIMISED;SERIAL;DRAWS;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS;ONLY_DEEP" ${ARGN})
   if(T_UNPARSED_ARGUMENTS)
@@ -78,19 +79,23 @@ function(afm_test)
   endif()
   afm_compile_together(${target})
 
-  set(deep ${T_DEEP})  # the filter of NAME.deep
-  set(usual "")         # the filter of the usual run
+  string(REPLACE ":" ";" deep "${T_DEEP}")  # filters of the cases NAME.deep.FILTER
+  set(usual "")                             # the filter of the usual run
   if(T_ONLY_DEEP AND NOT T_SUITES)
-    set(usual --gtest_filter=-${T_ONLY_DEEP})
+    string(REPLACE ":" ";" only_deep "${T_ONLY_DEEP}")
+    list(JOIN only_deep ":" usual)
+    set(usual --gtest_filter=-${usual})
     if(NOT T_CASES)
-      list(APPEND deep ${T_ONLY_DEEP})
+      list(APPEND deep ${only_deep})
     endif()
   endif()
-  if(deep)
-    list(JOIN deep ":" deep)
-    add_test(NAME ${T_NAME}.deep COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${deep})
-    set_tests_properties(${T_NAME}.deep PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${deep_serial} ENVIRONMENT AFM_DEEP=1)
-  endif()
+  foreach(filter IN LISTS deep)
+    string(REPLACE "/" "." case "${filter}")
+    string(REGEX REPLACE "\\.?[*]$|[*]\\.?" "" case "${case}")
+    add_test(NAME ${T_NAME}.deep.${case} COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${filter})
+    set_tests_properties(${T_NAME}.deep.${case} PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${deep_serial} ENVIRONMENT AFM_DEEP=1
+                         FAIL_REGULAR_EXPRESSION "Running 0 tests")
+  endforeach()
   string(REPLACE ";" "\\;" labels "${T_LABELS}")  # one value of the list of properties
   set(properties LABELS "${labels}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${serial})
   if(T_DRAWS)

@@ -77,7 +77,7 @@
 struct FrameBlock {
   mat4 clip_from_room[2];
   vec4 eye_position[2];   // xyz; w: 0 left, 1 right
-  mat4 shadow_from_room;  // to the shadow map's clip space, depth 0 nearest to the light
+  mat4 shadow_from_room;  // transform to the shadow map's clip space, depth 0 nearest to the light
   vec4 light_direction;   // xyz: unit vector to the key light; w: strength of the map's shadow
   vec4 light_side;        // xyz: unit, horizontal, across the light's direction
   vec4 light_radiance;    // rgb, linear; a: metres that one texel of the shadow map covers

@@ -39,7 +39,7 @@ layout(set = AFM_SET_MATERIAL, binding = AFM_BINDING_MATERIAL, std140) uniform M
   vec4 clearcoat_normal_scale;
   vec4 iridescence;
   vec4 iridescence_ior;
-  vec4 iridescence_thickness_nm;  // at texture values 0 and 1
+  vec4 iridescence_thickness_nm;  // thickness at texture values 0 and 1
   vec4 uv_rows[2 * kTextureSlots];
 } material;
 layout(set = AFM_SET_MATERIAL, binding = AFM_BINDING_TEXTURES) uniform sampler2D textures[kTextureSlots];

@@ -11,6 +11,8 @@
 #include "app/options/command.h"
 #include "app/options/standard_output.h"
 #include "core/log.h"
+#include "core/new_file.h"
+#include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/conversion.h"
 #include "curves/image_file.h"
@@ -40,9 +42,9 @@ core::Result<void> convert(const ConvertOptions& options) {
   }
   const auto made = curves::converted(options.from, options.to, options.conversion);
   if (!made) return tl::unexpected(made.error());
-  if (const auto written = core::write_file(options.to, made->bytes); !written) return written;
+  if (const auto written = core::write_new_file(options.to, made->bytes); !written) return written;
   for (const std::string& remark : made->remarks) core::log_line(fmt::format("{}: {}", options.from, remark));
-  return write_stdout(fmt::format("{}: {}\n", options.to, made->contents));
+  return write_stdout(core::printable_line(fmt::format("{}: {}", options.to, made->contents)) + "\n");
 }
 
 }  // namespace

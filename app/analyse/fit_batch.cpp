@@ -198,8 +198,9 @@ class Summary {
   bool has_fits() const { return unread_ < done_; }
 
   std::vector<std::string> lines() const {
-    std::vector<std::string> lines{fmt::format("{} curves; {} trusted, {} doubtful, {} not trusted, {} without a fit",
-                                               done_, trusts_[0], trusts_[1], trusts_[2], unread_)};
+    std::vector<std::string> lines{fmt::format("{} curve{}; {} trusted, {} doubtful, {} not trusted, {} without a fit",
+                                               done_, done_ == 1 ? "" : "s", trusts_[0], trusts_[1], trusts_[2],
+                                               unread_)};
     if (moduli_pa_.empty()) return lines;
     const curves::ModulusFigures figures = curves::modulus_figures(moduli_pa_);
     const auto pressure = [](double pa) {
@@ -307,7 +308,8 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   }
   const std::vector<std::string> results = summary.lines();
   if (auto written = write_page(options, summary, results, page); !written && drawn) drawn = std::move(written);
-  if (const auto printed = write_report(fmt::format("{}: {}\n", path, fmt::join(results, "\n"))); !printed)
+  if (const auto printed = write_report(fmt::format("{}: {}\n", core::printable_line(path), fmt::join(results, "\n")));
+      !printed)
     return printed;
   if (whole_files < files.size()) {
     return core::failure(core::ErrorCategory::Failed,

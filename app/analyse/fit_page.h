@@ -50,7 +50,7 @@ class FitPage {
   std::string doubts_html() const;
   std::string unfitted_html() const;
 
-  std::vector<FileRow> files_;  // all but the current one
+  std::vector<FileRow> files_;  // finished files, without the current one
   FileRow current_;
   std::vector<double> moduli_pa_;  // moduli of the current file
   std::map<fits::Doubt, std::size_t> doubts_;

@@ -30,7 +30,7 @@ struct Crowd {
   double bar_us = 0;
   double hand_m_per_s = kHandMPerS;
   double pitch_m = kPitchM;  // pitch of the lattice and of the lines
-  double tip_radius_m = 0;   // 0: radius of the set's tip
+  double tip_radius_m = 0;   // radius of the tip; 0: that of the set's tip
 };
 
 // On a square lattice, each aside by up to two fifths of the gap.

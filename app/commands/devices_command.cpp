@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/headset/headset_runtime.h"
@@ -15,6 +17,7 @@
 #include "core/printable.h"
 #include "core/written_by.h"
 #include "input/dtrack_source.h"
+#include "input/hid_catalog.h"
 #include "input/hid_source.h"
 #include "input/tracker_report.h"
 #include "input/wand_file.h"
@@ -37,6 +40,19 @@ struct Row {
 // Long enough for a tracker, which sends at least 60 frames a second.
 constexpr std::int64_t kListenNs = 300'000'000;
 
+// Names of the wands that need no wand file, each once.
+std::string known_wands(const std::vector<input::HidMapping>& mappings) {
+  std::vector<std::string_view> names;
+  const auto add = [&](std::string_view name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const input::HidModel& model : input::hid_models()) {
+    if (model.make != nullptr) add(model.name);
+  }
+  for (const input::HidMapping& mapping : mappings) add(mapping.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void look_for_hid_wands(const std::vector<input::HidMapping>& mappings, std::vector<Row>& rows) {
   const auto found = input::find_hid_wands(mappings);
   if (!found) {
@@ -46,7 +62,9 @@ void look_for_hid_wands(const std::vector<input::HidMapping>& mappings, std::vec
   for (const input::HidFinding& finding : *found) {
     rows.push_back({finding.is_wand ? "wand" : "hid", finding.name, finding.usable, finding.said});
   }
-  if (found->empty()) rows.push_back({"wand", "HID", false, "no HID device is plugged in or visible"});
+  const bool has_wand = std::any_of(found->begin(), found->end(), [](const auto& finding) { return finding.is_wand; });
+  if (!has_wand)
+    rows.push_back({"wand", "HID", false, "none is plugged in or visible; known: " + known_wands(mappings)});
 }
 
 Row listen_for_tracker(const input::DtrackSettings& settings) {

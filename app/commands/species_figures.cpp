@@ -71,7 +71,7 @@ std::string force_text(Force force) {
 
 // Figures of rods that a user needs before a push.
 struct RodFigures {
-  Force middle, end;  // at rest
+  Force middle, end;  // forces at rest
   Length pivot, rho;
   Force most_push;
 };

@@ -25,7 +25,7 @@ struct DemoSamples {
   curves::ModelName model{.text = "paper"};  // without tapping
   std::optional<scene::ScaleMode> scale;
   physics::FrictionLaw friction = physics::FrictionLaw::None;
-  std::string probe;              // replaces the materials' lever and tip; empty: does not
+  std::string probe;              // probe in place of the materials' lever and tip; empty: none
   std::string measured;           // additional curve file to feel; empty: none
   std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
   curves::TappedHand tapping;

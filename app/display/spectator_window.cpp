@@ -130,7 +130,7 @@ void SpectatorWindow::draw() {
   now.wall.material = material_;
   put_tip(now.wall);
   if (material_) now.wall.release_z_m = materials_[*material_].figures().z_joc.si;
-  now.realtime = true;  // simulated time is late for nobody
+  now.realtime = true;  // simulated time, which is never late
   now.phase = shown_.touching ? physics::Phase::Attached : physics::Phase::Free;
   if (player_.playing()) {
     now.wall.tip = player_.tip();

@@ -44,7 +44,7 @@ class SpectatorWindow {
 
  private:
   bool leaves();
-  std::optional<std::size_t> place_of(const std::string& material) const;  // on the wall
+  std::optional<std::size_t> place_of(const std::string& material) const;  // place of the material on the wall
   bool take(double frame_s);
   void take_lines();
   bool follow_contact();

@@ -42,7 +42,7 @@ struct MachineFacts {
   std::vector<haptics::HapticPort> haptic_ports;
   std::vector<haptics::ProbeLine> haptics;
   const core::PackageSystem* packages = nullptr;  // null: an unknown distribution
-  std::vector<core::SystemPart> missing_parts;    // without drivers and fonts
+  std::vector<core::SystemPart> missing_parts;    // missing parts other than drivers and fonts
   std::string servo_program;
   std::string missing_program;  // servo or watchdog, if it cannot be run; empty: none is missing
 };

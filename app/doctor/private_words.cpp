@@ -10,7 +10,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <sstream>
+
+#include "haptics/device_registry.h"
 
 namespace afm::app {
 
@@ -23,16 +26,6 @@ constexpr std::string_view kEndsPath = " \t\n\"':,;)";
 constexpr auto kSystemFolders =
     std::to_array<std::string_view>({"/usr/", "/lib/", "/lib32/", "/lib64/", "/bin/", "/sbin/", "/etc/", "/dev/",
                                      "/proc/", "/sys/", "/boot/", "/var/lib/", "/run/user/"});
-
-constexpr auto kModelWords = std::to_array<std::string_view>(
-    {"360",       "3d",          "controller", "delta.3",  "delta.6",  "desktop",        "device",
-     "dimension", "dualsense",   "dualshock",  "falcon",   "force",    "forcedimension", "gamepad",
-     "geomagic",  "haply",       "hd",         "hdapi",    "inverse3", "inverse3x",      "joystick",
-     "lambda.3",  "lambda.6",    "lambda.7",   "logitech", "mini",     "minverse",       "mock",
-     "nintendo",  "novint",      "omega.3",    "omega.6",  "omega.7",  "omni",           "one",
-     "phantom",   "playstation", "premium",    "ps4",      "ps5",      "sensable",       "series",
-     "sigma.3",   "sigma.7",     "simulated",  "sony",     "stylus",   "switch",         "touch",
-     "usb",       "virtual",     "wireless",   "x",        "xbox"});
 
 std::string lower(std::string_view text) {
   std::string small(text);
@@ -127,6 +120,15 @@ void add_host(PrivateWords& secrets, const std::string& host) {
   add(secrets.hosts, host.substr(0, host.find('.')));
 }
 
+// True for a word of any supported maker or model.
+bool is_model_word(const std::string& word) {
+  const auto& kinds = haptics::device_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const haptics::DeviceKind& kind) {
+    std::istringstream models{std::string(kind.models)};
+    return std::find(std::istream_iterator<std::string>(models), {}, word) != std::istream_iterator<std::string>();
+  });
+}
+
 }  // namespace
 
 PrivateWords private_words() {
@@ -179,7 +181,7 @@ std::string model_of(std::string_view device_name) {
   std::string model;
   bool dropped = device_name.find(", serial") != std::string_view::npos;
   for (std::string word; words >> word;) {
-    const bool known = std::find(kModelWords.begin(), kModelWords.end(), lower(word)) != kModelWords.end();
+    const bool known = is_model_word(lower(word));
     if (known) model += (model.empty() ? "" : " ") + word;
     dropped = dropped || !known;
   }

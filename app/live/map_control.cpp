@@ -93,7 +93,7 @@ void MapControl::check_vibration() {
   if (sample == nullptr || sample->parameters.map_vibration == scene::MapVibration::None || !parts_.servo.running())
     return;
   const scene::SharedDevice& device = parts_.servo.link().device();
-  if (device.max_force_n == 0.0) return;  // not known yet
+  if (device.max_force_n == 0.0) return;  // device not known yet
   checked_ = true;
   if (device.max_vibration_n > 0.0) return;
   core::log_line(fmt::format("force map: the profile of the {} has no vibration; the map is felt without it",

@@ -36,7 +36,7 @@ class MapControl final : public ViewControl {
   const curves::SampleModel* map() const;  // null: another sample, or none, is under the tip
   MapView view() const;
   void add_pixel_to_session(servo::WallFrame& shown) const;
-  void check_vibration();  // reports a device that leaves it out
+  void check_vibration();  // report of a device that cannot vibrate
 
   ViewParts& parts_;
   exhibit::WallState wall_;  // the frame's

@@ -267,7 +267,7 @@ bool ParticlesControl::point(const input::Ray& ray) {
   const auto on_sample = exhibit::ray_on_sample(parts_.stage.wall_scene, *shown_, ray);
   const auto planned = on_sample ? planner_->point(*on_sample, now_) : std::nullopt;
   if (!planned) return false;
-  if (begins && unplanned() && parts_.servo.picture() != nullptr) {  // at the bare sample
+  if (begins && unplanned() && parts_.servo.picture() != nullptr) {  // first point, at the bare sample
     look_again();
     return true;
   }

@@ -7,21 +7,15 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
-#include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "app/options/usage_errors.h"
+#include "app/options/written_files.h"
 #include "core/whole_file.h"
-#include "curves/curve_file.h"
-#include "curves/image_file.h"
-#include "curves/image_output.h"
-#include "servo/session_file.h"
 
 namespace afm::app {
 
@@ -133,24 +127,6 @@ bool has_check(CLI::Option& option, const char* name) {
 
 bool writes(CLI::Option& option) { return has_check(option, kWrites); }
 
-// Name of a measurement's format, by the file's first bytes; empty: none.
-std::string_view measurement_in(const std::string& path) {
-  if (servo::is_session_file(path)) return "a session";
-  if (curves::is_image_file(path)) return "an image";
-  return curves::is_curve_file(path) ? "a curve" : "";
-}
-
-// The same if only an instrument or the live window writes such files; results replace older results.
-std::string_view foreign_measurement_in(const std::string& path) {
-  const std::string_view measurement = measurement_in(path);
-  if (measurement == "an image" && curves::image_format(path)) return "";
-  if (measurement != "a curve") return measurement;
-  if (curves::writable_format_of(path)) return "";
-  constexpr std::string_view kOwn = "# TouchAFM";
-  const auto beginning = core::read_beginning(path, kOwn.size());
-  return beginning && *beginning == kOwn ? "" : measurement;
-}
-
 // Returns whether its value is a file, alone or behind a word and a colon.
 bool reads(CLI::Option& option) {
   const std::string value = value_of(option);
@@ -159,42 +135,16 @@ bool reads(CLI::Option& option) {
          (names("FILE") || names("SESSION") || option.get_description().find(":FILE") != std::string::npos);
 }
 
-void add_given_options(CLI::App& app, std::vector<CLI::Option*>& given) {
+void add_given_options(CLI::App& app, std::vector<GivenOption>& given) {
   for (CLI::Option* option : app.get_options()) {
-    if (!option->empty()) given.push_back(option);
+    if (option->empty()) continue;
+    given.push_back({.name = option->get_name(),
+                     .values = option->results(),
+                     .reads = reads(*option),
+                     .writes = writes(*option),
+                     .draws = has_check(*option, kDraws)});
   }
   for (CLI::App* below : app.get_subcommands([](CLI::App*) { return true; })) add_given_options(*below, given);
-}
-
-bool is_one_file(const std::string& a, const std::string& b) {
-  std::error_code missing;
-  return std::filesystem::is_regular_file(a, missing) && std::filesystem::equivalent(a, b, missing);
-}
-
-// Refuses to write the file that another option reads, and to replace a measurement, which would be lost.
-core::Result<void> check_written_files(CLI::App& app) {
-  std::vector<CLI::Option*> given;
-  add_given_options(app, given);
-  for (CLI::Option* out : given) {
-    if (!writes(*out)) continue;
-    const std::string& path = out->results().back();
-    const bool draws = has_check(*out, kDraws);
-    const std::string_view measurement = draws ? measurement_in(path) : foreign_measurement_in(path);
-    for (CLI::Option* in : given) {
-      if (!reads(*in)) continue;
-      for (const std::string& text : in->results()) {
-        const std::size_t colon = text.find(':');
-        const std::string behind = colon == std::string::npos ? text : text.substr(colon + 1);
-        if (!is_one_file(path, text) && !is_one_file(path, behind)) continue;
-        return core::wrong_usage(fmt::format("{} {}: this file is read, too ({}), and would be lost; choose another",
-                                             out->get_name(), path, in->get_name()));
-      }
-    }
-    if (measurement.empty()) continue;
-    return core::wrong_usage(fmt::format("{} {}: it is {}, which {}; name a new file", out->get_name(), path,
-                                         measurement, draws ? "a picture would replace" : "would be lost"));
-  }
-  return {};
 }
 
 // CLI11's help, except for an option's value, default and rules, whose wording differs between CLI11 versions.
@@ -374,7 +324,9 @@ CommandDescription CommandLine::describe() const { return describe_command(*app_
 core::Result<std::string> CommandLine::parse(int count, const char* const* arguments) {
   try {
     app_->parse(count, arguments);
-    if (const auto checked = check_written_files(*app_); !checked) return tl::unexpected(checked.error());
+    std::vector<GivenOption> given;
+    add_given_options(*app_, given);
+    if (const auto checked = check_written_files(given); !checked) return tl::unexpected(checked.error());
     return "";
   } catch (const CLI::Success& asked) {  // --help, --version
     std::ostringstream answer;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options/standard_output.h"
-#include "core/system_error.h"
-#include "core/written_by.h"
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <utility>
+
+#include "core/printable.h"
+#include "core/system_error.h"
+#include "core/written_by.h"
 
 namespace afm::app {
 
@@ -26,7 +28,9 @@ core::Result<void> write_stdout(std::string_view text) {
   return flush_stdout();
 }
 
-core::Result<void> write_report(std::string text) { return write_stdout(core::with_software_line(std::move(text))); }
+core::Result<void> write_report(std::string text) {
+  return write_stdout(core::printable(core::with_software_line(std::move(text))));
+}
 
 core::Result<void> flush_stdout() {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return cannot_write();

@@ -57,7 +57,6 @@ class MouseHand {
   bool dragging() const { return grips_ > 0; }
   double wanted_m() const { return wanted_m_.y; }
   double aim_m() const { return aim_m_.y; }
-  double aim_across_m() const { return aim_m_.x; }
   const scene::HandScript& script() const { return script_; }
 
  private:

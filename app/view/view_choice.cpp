@@ -2,6 +2,11 @@
 #include "app/view/view_choice.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/view/live_sound.h"
 #include "app/view/parameter_edits.h"
@@ -21,6 +26,15 @@ namespace afm::app {
 namespace {
 
 constexpr std::int64_t kForceTakenNs = 500'000'000;  // longest time a new selection needs to remove the force
+
+// Words of --friction that enable friction, the richest law first.
+std::string felt_laws() {
+  std::vector<std::string_view> words;
+  for (const physics::FrictionLawText& row : physics::kFrictionLaws) {
+    if (row.law != physics::FrictionLaw::None) words.insert(words.begin(), row.word);
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
 
 }  // namespace
 
@@ -114,7 +128,7 @@ void ViewChoice::toggle_friction_loop() {
   if (!shown) return core::log_line("friction loop: hidden");
   const physics::FrictionLaw law = felt_[*material].parameters.friction.law;
   core::log_line(law == physics::FrictionLaw::None
-                     ? std::string("friction loop: friction is off; start with --friction lattice, area or amontons")
+                     ? "friction loop: friction is off; start with --friction " + felt_laws()
                      : std::string("friction loop: shown, friction ") + std::string(physics::text_of(law).word));
 }
 

@@ -33,7 +33,7 @@ struct WandChoice {
   enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
   Source source = Source::Auto;
   std::string hid_name{};                   // node, numbers or a part of the name of the wand; empty: any
-  input::WandFile file;                     // with the file's mapping, hand and tracker
+  input::WandFile file;                     // mapping, hand and tracker of the wand file
   bool has_tracker_file = false;            // the file gives the tracker's frame in the room
   std::optional<std::uint32_t> head_body;   // number of the tracker's body
   std::vector<input::HeadKey> head_script;  // moves a simulated head instead of a tracked one; may be empty

@@ -10,7 +10,7 @@
 namespace afm::generate {
 
 Model probe();                 // chip, V-shaped cantilever, pyramidal tip
-std::vector<Model> samples();  // a patch of mica, gold and silicon nitride each
+std::vector<Model> samples();  // one patch each of mica, gold and silicon nitride
 Model stage();
 Model room();                   // the floor below the exhibit
 std::vector<Model> swatches();  // targets of the wand for choosing a material
@@ -20,7 +20,7 @@ Model analogy();               // a magnet on a spring above an iron plate
 Model journey();               // the instrument from the bench to its last atom, all about the contact point
 Model companions();            // known things beside it, at their true sizes
 std::vector<Model> grounds();  // the samples for it, from 5 mm to their atoms
-Model marks();                 // the ruler's line and the bend's
+Model marks();                 // lines of the ruler and of the bend
 
 inline std::vector<Model> all_models() {
   std::vector<Model> models{probe(), stage(), room(), optics(), wand(), marks(), journey(), companions(), analogy()};

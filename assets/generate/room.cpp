@@ -34,7 +34,7 @@ double visible(double x, double z) {
 Surface floor_surface() {
   Surface surface;
   const auto spread = [](std::size_t i, double low, double high) {
-    const double t = 2.0 * static_cast<double>(i) / (2 * kRings) - 1;  // -1..1
+    const double t = 2.0 * static_cast<double>(i) / (2 * kRings) - 1;  // place from one edge to the other, -1 to 1
     const double bent = t * (0.35 + 0.65 * t * t);
     return bent < 0 ? -bent * low : bent * high;
   };

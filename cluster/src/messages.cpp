@@ -89,7 +89,7 @@ bool is_valid(const PictureRecord& picture) {
 }
 
 bool is_valid(const MarkRecord& record) {
-  const auto near = [](double height_m) { return std::abs(height_m) <= scene::kMostMarkM; };  // NaN is not
+  const auto near = [](double height_m) { return std::abs(height_m) <= scene::kMostMarkM; };  // false for NaN
   return record.tile < scene::kMarkTiles && record.row < scene::kTileSide &&
          std::all_of(record.pressed_m.begin(), record.pressed_m.end(), near) &&
          std::all_of(record.back_m.begin(), record.back_m.end(), near);

@@ -16,6 +16,7 @@
 
 #include "core/system_error.h"
 #include "core/whole_file.h"
+#include "move_to_new.h"
 
 namespace afm::core {
 
@@ -39,15 +40,6 @@ void remove_abandoned(const std::string& path) {
     if (!entry.path().filename().string().starts_with(kUnfinished)) continue;
     if (locked(entry.path().string())) fs::remove_all(entry.path(), ignored);
   }
-}
-
-// Without replacing; on a file system that cannot refuse by itself, after a look. Returns 0 or errno.
-int move_to_new(const std::string& from, const std::string& to) {
-  if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
-  if (errno != EINVAL && errno != ENOSYS) return errno;
-  std::error_code unknown;
-  if (fs::exists(fs::symlink_status(to, unknown))) return EEXIST;
-  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
 }
 
 }  // namespace

@@ -18,8 +18,10 @@
 #include "core/file_descriptor.h"
 #include "core/interruption.h"
 #include "core/log.h"
+#include "core/new_file.h"
 #include "core/system_error.h"
 #include "core/write_all.h"
+#include "move_to_new.h"
 
 namespace afm::core {
 
@@ -59,9 +61,15 @@ int write_into(const std::string& path, std::string_view bytes) {
   return write_all(file.get(), bytes);
 }
 
-// Writes a temporary file next to `path` and renames it. Its random name cannot be guessed and prepared as a link.
+using Move = int (*)(const std::string& from, const std::string& to);  // returns 0 or errno
+
+int move_over(const std::string& from, const std::string& to) {
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
+
+// Writes a temporary file next to `path` and moves it there. Its random name cannot be guessed and prepared as a link.
 // Returns 0 or errno.
-int replace(const fs::path& path, std::string_view bytes, std::optional<mode_t> permissions) {
+int put_in_place(const fs::path& path, std::string_view bytes, std::optional<mode_t> permissions, Move move) {
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) return errno;
   const std::string part = (path.parent_path() / (".touchafm-" + std::to_string(random) + ".part")).string();
@@ -71,7 +79,7 @@ int replace(const fs::path& path, std::string_view bytes, std::optional<mode_t> 
   int error = write_all(file.get(), bytes);
   if (error == 0 && permissions && ::fchmod(file.get(), *permissions) != 0) error = errno;
   if (error == 0 && ::fsync(file.get()) != 0) error = errno;
-  if (error == 0 && ::rename(part.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0) error = move(part, path.string());
   if (error != 0) ::unlink(part.c_str());
   return error;
 }
@@ -109,13 +117,13 @@ tl::unexpected<Error> unwritable(const std::string& path, int error) {
   return failure(ErrorCategory::Failed, "cannot write " + path + ": " + why);
 }
 
-int write_file_or_errno(const std::string& path, std::string_view bytes) {
+int write_file_or_errno(const std::string& path, std::string_view bytes, Move move) {
   const auto mode = mode_of_target(path);
   if (!mode) return mode.error();
   const auto target = follow_links(path);
   if (!target || (*mode && !S_ISREG(**mode))) return write_into(path, bytes);
   if (*mode && ::access(path.c_str(), W_OK) != 0) return errno;  // a rename would not check it
-  return replace(*target, bytes, *mode ? std::optional(**mode & kPermissions) : std::nullopt);
+  return put_in_place(*target, bytes, *mode ? std::optional(**mode & kPermissions) : std::nullopt, move);
 }
 
 // Reads the whole file, or slightly more than `most` bytes of it.
@@ -158,9 +166,17 @@ Result<std::string> read_beginning(const std::string& path, std::size_t most) {
 }
 
 Result<void> write_file(const std::string& path, std::string_view bytes) {
-  const int error = write_file_or_errno(path, bytes);
+  const int error = write_file_or_errno(path, bytes, move_over);
   if (error == 0) return {};
   return unwritable(path, error);
+}
+
+Result<void> write_new_file(const std::string& path, std::string_view bytes) {
+  const int error = write_file_or_errno(path, bytes, move_to_new);
+  if (error == 0) return {};
+  if (error != EEXIST) return unwritable(path, error);
+  return failure(ErrorCategory::WrongUsage,
+                 "there is already a file " + path + ", and no file is replaced; choose another name");
 }
 
 Result<void> check_writable(const std::string& path) {

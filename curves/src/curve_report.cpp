@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/printable.h"
 #include "core/written_by.h"
 #include "curves/plot_units.h"
 #include "fits/elastic_fit.h"
@@ -211,7 +212,7 @@ core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
 std::string features_text(const AnalysedCurve& measured, const AnalysedCurve* other) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "{}: {}\n", measured.name, described(measured.curve));
+  fmt::format_to(out, "{}: {}\n", core::printable_line(measured.name), described(measured.curve));
   for (const std::string& remark : measured.curve.metadata.remarks) fmt::format_to(out, "remark: {}\n", remark);
   if (other != nullptr) fmt::format_to(out, "{:<16}{:>16}{:>16}{:>16}\n", "", "measured", other->name, "difference");
   for (const Figure& figure : kFigures) {

@@ -14,7 +14,7 @@ constexpr double kForceUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOutlyingPixels = 0.1;  // share of the pixels whose forces may be beyond the range
 constexpr double kLeastOther = 0.02;     // least share of the larger end of the range at the smaller
 constexpr double kForceless = 0.05;      // share of the range below which there is hardly a force
-constexpr double kAbove = 1.2;           // height that is shown, in heights with a force
+constexpr double kAbove = 1.2;           // shown height, as a multiple of the height with a force
 
 // Value at a share of the sorted ones; 0 without any.
 double at_share(std::vector<double>& values, double share) {

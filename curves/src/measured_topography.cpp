@@ -9,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/printable.h"
 #include "core/written_by.h"
 #include "physics/quantity_text.h"
 
@@ -123,8 +124,9 @@ std::string topography_text(const MeasuredTopography& topography) {
   const auto line = [&](std::string_view title, const std::string& value) {
     fmt::format_to(out, "  {:<14}{}\n", title, value);
   };
-  fmt::format_to(out, "{}: {} image, {} x {} points, {} x {}\n", topography.name, name_of(topography.file.format),
-                 scan.columns, scan.rows, length_text(scan.width_m), length_text(scan.height_m));
+  fmt::format_to(out, "{}: {} image, {} x {} points, {} x {}\n", core::printable_line(topography.name),
+                 name_of(topography.file.format), scan.columns, scan.rows, length_text(scan.width_m),
+                 length_text(scan.height_m));
   std::string channels;
   for (const physics::ImageChannel& each : scan.channels) channels += (channels.empty() ? "" : ", ") + each.name;
   for (const std::string& name : topography.file.left_out) channels += fmt::format(", {} (on another grid)", name);

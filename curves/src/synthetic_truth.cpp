@@ -56,7 +56,7 @@ json truth_of(const SyntheticSetup& setup, std::string_view kind) {
   json& parameters = truth["parameters"] = json::object();
   for (const SyntheticField& field : kSyntheticFields) {
     const double si = setup.*field.member;
-    const bool is_set = si != 0.0 || field.smallest <= 0.0;  // a zero that nobody may give: none
+    const bool is_set = si != 0.0 || field.smallest <= 0.0;  // zero in a field that must be positive: unset
     if (is_set && field.use(setup) != FieldUse::None) parameters[std::string(field.json_key)] = si;
   }
   truth["curves"] = json::array();

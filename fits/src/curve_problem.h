@@ -67,7 +67,7 @@ class CurveProblem {
   FitSetup setup_;
   bool is_adhesive_;
   std::vector<double> z_m_, force_n_;
-  std::vector<double> way_m_;  // from the first sample, for the tilt
+  std::vector<double> way_m_;  // distance from the first sample, for the tilt
   std::vector<bool> sticks_;
   mutable CurveModel last_;  // solver and verdict ask for the same unknowns again and again
 };

@@ -26,7 +26,7 @@ class LaggedProducts {
   // More residuals than kMostNoiseOrder, at most kMostUnknowns columns.
   LaggedProducts(std::span<const double> residuals, std::span<const double> jacobian);
 
-  std::size_t columns() const { return columns_; }  // with the residuals
+  std::size_t columns() const { return columns_; }  // number of columns, residuals included
   std::size_t entries() const { return columns_ * (columns_ + 1) / 2; }
   double count() const { return static_cast<double>(count_); }
 

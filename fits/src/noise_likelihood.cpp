@@ -46,7 +46,7 @@ double dot(const Vector& a, const Vector& b, std::size_t size) {
 // Eliminates the columns of the fit, from the last to the first after the residuals: with them the inverse of their
 // products, what is left of the residuals' square, and the determinant. By Gauss and Jordan.
 struct Eliminated {
-  Matrix inverse{};  // row and column of the residuals are 0
+  Matrix inverse{};  // inverse matrix, with zeros in row and column of the residuals
   double determinant = 1.0;
 };
 bool eliminate(const Matrix& products, std::size_t size, Eliminated& result) {

@@ -13,7 +13,7 @@ namespace afm::fits {
 // Lever and contact in series (F7): d + F(d)/k = way, without adhesion.
 struct InSeries {
   double depth_m = 0;
-  Push push;  // at that depth
+  Push push;  // push at that depth
 };
 
 // `way_m`, positive, is the way of the base beyond the contact point; `near_m` a depth from which the search begins.

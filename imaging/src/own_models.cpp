@@ -107,6 +107,13 @@ core::Result<scene::Scene> load_model_of_sample(const std::string& file) {
   const scene::Bounds bounds = bounds_below(sample, 0);
   const double width = std::max(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
   if (!std::isnormal(width)) return tl::unexpected(missing(file, "its surface has no extent along x and y"));
+  const double rounding = 1e-3 * width;
+  const auto is_beside = [rounding](double low, double high) { return low > rounding || high < -rounding; };
+  if (is_beside(bounds.low.x, bounds.high.x) || is_beside(bounds.low.y, bounds.high.y)) {
+    return tl::unexpected(missing(
+        file,
+        "its node for the role surface, where the tip comes down, lies beside the sample: put it on the surface"));
+  }
   if (width > kWidestSampleM) {
     for (scene::Primitive& primitive : sample.meshes[0].primitives) {
       transform(primitive, glm::scale(dmat4(1.0), dvec3(kFittedSampleM / width)));

@@ -128,14 +128,24 @@ bool HidCandidate::try_to_open(const HandPlace& place, std::int64_t now_ns) {
   return false;
 }
 
-bool HidCandidate::read(int patience_ms, const core::Clock& clock, std::uint64_t& refused) {
+void HidCandidate::refuse(std::span<const std::uint8_t> report) {
+  if (++refused_ < next_refusal_) return;
+  next_refusal_ *= 10;
+  core::log_line(fmt::format(
+      "wand: {} at {}: {} {} not understood, the last of {} bytes that begin with {:#04x}; if the wand does not react, "
+      "describe it in a wand file",
+      name(), path_, refused_, refused_ == 1 ? "report" : "reports", report.size(), report.empty() ? 0 : report[0]));
+}
+
+bool HidCandidate::read(int patience_ms, const core::Clock& clock) {
   std::array<std::uint8_t, kLongestReport> report;
   for (int i = 0; i < kMostReportsAPoll; ++i) {
     const int size = hid_read_timeout(device_->handle, report.data(), report.size(), i == 0 ? patience_ms : 0);
     if (size < 0) return false;
     if (size == 0) break;
     const std::int64_t now_ns = clock.now_ns();
-    if (!wand_->take(Bytes(report).first(static_cast<std::size_t>(size)), now_ns)) ++refused;
+    const auto received = Bytes(report).first(static_cast<std::size_t>(size));
+    if (!wand_->take(received, now_ns)) refuse(received);
     if (!device_->write(wand_->take_answers())) return false;
     watch(now_ns);
   }

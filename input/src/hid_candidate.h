@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/clock.h"
@@ -32,8 +33,9 @@ class HidCandidate {
   // Returns whether this call has opened it. Logs the reason if it cannot, once.
   bool try_to_open(const HandPlace& place, std::int64_t now_ns);
 
-  // Processes the reports, waiting for the first of them for up to `patience_ms`. False: it is unplugged.
-  bool read(int patience_ms, const core::Clock& clock, std::uint64_t& refused);
+  // Processes the reports, waiting for the first of them for up to `patience_ms`. False: it is unplugged. Logs the
+  // first, tenth, hundredth ... report that the driver does not understand.
+  bool read(int patience_ms, const core::Clock& clock);
 
   const WandState& state() const { return state_; }
 
@@ -47,6 +49,7 @@ class HidCandidate {
  private:
   struct Device;
   void watch(std::int64_t now_ns);
+  void refuse(std::span<const std::uint8_t> report);
 
   std::string path_;
   KnownHid known_;
@@ -61,6 +64,8 @@ class HidCandidate {
   std::int64_t steady_ns_ = 0;   // end of the time in which a motion sensor settles
   std::int64_t used_ns_ = 0;
   std::uint32_t counted_stops_ = 0;
+  std::uint64_t refused_ = 0;       // reports that the driver did not understand
+  std::uint64_t next_refusal_ = 1;  // number of them to log next
 };
 
 }  // namespace afm::input

@@ -173,7 +173,7 @@ bool HidSource::read_candidates() {
   bool kept = true;
   const auto is_lost = [&](const std::unique_ptr<HidCandidate>& candidate) {
     if (!candidate->is_open()) return false;
-    const bool there = candidate->read(candidate.get() == followed_ ? kReadPatienceMs : 0, clock_, refused_);
+    const bool there = candidate->read(candidate.get() == followed_ ? kReadPatienceMs : 0, clock_);
     stops_ += candidate->take_stops();
     if (!there && candidate.get() == followed_) kept = false;
     return !there;

@@ -163,7 +163,7 @@ class Wiimote final : public HidDriver {
     return buttons;
   }
 
-  bool motion_plus_ = false;  // active
+  bool motion_plus_ = false;  // active Motion Plus
   Reports answers_;
 };
 

@@ -39,7 +39,8 @@ void SimulatedInstrument::follow_base() {
 
 double SimulatedInstrument::force_n() const {
   if (settings_.taps) return 0.0;
-  if (at_.engaged) return touching_ ? settings_.scan.setpoint.si : 0.0;
+  // no contact bears a harder pull than its pull-off
+  if (at_.engaged) return touching_ ? std::max(settings_.scan.setpoint.si, -surface_->pull_off_force_n) : 0.0;
   return base_ ? base_->force_n() : 0.0;
 }
 

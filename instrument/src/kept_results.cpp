@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "core/whole_file.h"
+#include "core/new_file.h"
 #include "curves/curve_output.h"
 #include "curves/curve_series.h"
 #include "curves/image_output.h"
@@ -47,12 +47,13 @@ void KeptResults::save(const std::string& name) const {
   if (std::filesystem::exists(path, ignored)) throw RefusedRequest("there is already a file " + name);
   if (const auto format = curves::image_format(name)) {
     if (!image_) throw RefusedRequest("there is no image yet; \"scan\" first");
-    value_of(core::write_file(
+    value_of(core::write_new_file(
         path, *format == curves::ImageFormat::Gsf ? curves::gsf_bytes(*image_, 0) : curves::gwy_bytes(*image_)));
   } else if (const auto curve_format = curves::writable_format_of(name)) {
     if (!curve_) throw RefusedRequest("there is no curve yet; \"curve\" first");
-    value_of(core::write_file(path, value_of(curves::series_bytes(
-                                        curve_format->format, std::array{recorded(curve_->first, curve_->second)}))));
+    value_of(core::write_new_file(
+        path,
+        value_of(curves::series_bytes(curve_format->format, std::array{recorded(curve_->first, curve_->second)}))));
   } else {
     throw RefusedRequest("\"file\": name it .gwy or .gsf for the newest image, .h5, .tab or .csv for the newest curve");
   }

@@ -64,7 +64,6 @@ class NanonisReader {
     if (size < 0) throw std::out_of_range("a text has a negative size");
     return take(static_cast<std::size_t>(size));
   }
-  bool is_at_end() const { return rest_.empty(); }
 
  private:
   std::string_view take(std::size_t size) {

@@ -73,7 +73,7 @@ struct NanonisDoor::Functions {
   }
   static void val_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     const auto index = in.read<std::int32_t>();
-    in.read<std::uint32_t>();  // wait for the newest value, which this is
+    in.read<std::uint32_t>();  // request to wait for the newest value, which is this one
     out.add(signal(door, index));
   }
   static void vals_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
@@ -195,7 +195,7 @@ struct NanonisDoor::Functions {
     change(door, [&](InstrumentSettings& settings) {
       settings.size_m = width_m;
       settings.height_m = height_m;
-      settings.turn_rad = std::remainder(0.0 - angle, 360.0) * kRadPerDegree;  // theirs is clockwise
+      settings.turn_rad = std::remainder(0.0 - angle, 360.0) * kRadPerDegree;  // clockwise angle of the protocol
       settings.scan.line_rate = physics::Frequency(settings.scan.line_rate.si / wider);
     });
     door.frame_x_m_ = x_m;

@@ -27,7 +27,7 @@ struct GuardTimes {
   int wake;
   int release;  // since the servo's last tick: zero force is sent; the servo may continue afterwards
   int kill;     // since its last tick: SIGKILL, so that the kernel closes the device
-  int close;    // since it announced its end: the same
+  int close;    // time since the announcement of its end: also SIGKILL
 };
 
 class ForceGuard {

@@ -73,7 +73,7 @@ std::string text_in(const nlohmann::json& table, const char* key) {
   constexpr std::size_t kLongest = 200;
   auto found = table.find(key);
   if (found == table.end()) return {};
-  if (const auto& texts = *found; texts.is_object()) {  // a title is a text in each language
+  if (const auto& texts = *found; texts.is_object()) {  // title with a text in each language
     found = texts.find("en");
     if (found == texts.end()) return {};
   }

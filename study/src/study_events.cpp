@@ -39,7 +39,7 @@ constexpr std::array<std::string_view, 19> kEventsColumns{
     "onset",  "duration", "step",     "trial_type",    "condition", "practice", "trial",
     "level",  "stimulus", "response", "correct",       "rt",        "force",    "strokes",
     "losses", "undos",    "work",     "largest_force", "aids"};
-constexpr std::size_t kNewerColumns = 7;  // force, and those of a push
+constexpr std::size_t kNewerColumns = 7;  // columns of the force and of a push
 constexpr double kLongestLesson_s = 1e7;
 constexpr double kHighestLevel = 1e3;
 constexpr double kMostTrialsOfAStep = 1e6;

@@ -169,11 +169,6 @@ Estimate median_and_quantiles(std::size_t n, const PosteriorAxis& axis) {
 
 }  // namespace
 
-double answers_second_probability(const ThresholdTrial& trial, double weber_fraction, double exponent, double bias) {
-  const double signal = signal_of(std::log(trial.level), std::log(weber_fraction), exponent);
-  return second_probability(trial.second_stronger ? signal : -signal, bias);
-}
-
 ThresholdFit fitted_threshold(std::span<const ThresholdTrial> trials) {
   ThresholdFit fit;
   fit.weber_fraction.n = fit.bias.n = trials.size();

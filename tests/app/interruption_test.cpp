@@ -160,7 +160,7 @@ TEST(Interruption, OfAnExaminationOfAWallIsItsEnd) {
   const auto interrupted = [&](int number) {
     support::LiveProgram doctor({support::touchafm(), "doctor", "--cluster", wall, "--domain", "229"}, "");
     EXPECT_TRUE(has_begun(doctor)) << doctor.said();
-    std::this_thread::sleep_for(milliseconds(700));  // it listens, or asks the nodes
+    std::this_thread::sleep_for(milliseconds(700));  // time in which it listens, or asks the nodes
     const Ended ended = interrupt(doctor, number);
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.said, EndsWith("touchafm: interrupted\n"));

@@ -172,7 +172,7 @@ TEST(ScanCommand, ScansASampleOfOnesOwnAsItWasMeasuredAndUnderATipAsTheSampleIts
   EXPECT_THAT(bytes, HasSubstr("own.gsf"));
   const std::vector<double> height = values_of(bytes, 0);
   ASSERT_EQ(height.size(), 64U * 64U);
-  const double scanned_m = kOwnSideM * 127.0 / 128.0;  // from the first point to the last
+  const double scanned_m = kOwnSideM * 127.0 / 128.0;  // distance from the first point to the last
   for (std::size_t i = 0; i < height.size(); ++i) {
     const double x_m = ((static_cast<double>(i % 64) + 0.5) / 64.0 - 0.5) * scanned_m;
     // levelled, 0 at the origin, and linear between points

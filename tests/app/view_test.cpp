@@ -25,6 +25,7 @@
 #include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
+#include "support/sweet_spot.h"
 #include "support/virtual_display.h"
 
 // The real window on an X server without a screen, driven by xdotool as a hand drives a mouse and keys. Vulkan's calls
@@ -69,7 +70,7 @@ class ViewTest : public ::testing::Test {
   glm::dvec2 pixel_of(const glm::dvec3& point_m) const {
     scene::Wall one_eyed = stage_.wall;
     one_eyed.viewers.front().ipd_m = 0.0;
-    const scene::EyeView eye = exhibit::eyes_at_sweet_spot(one_eyed).value()[0];
+    const scene::EyeView eye = support::eyes_at_sweet_spot(one_eyed)[0];
     const glm::dvec4 clip = eye.projection * eye.view * glm::dvec4(point_m, 1.0);
     return 0.5 * glm::dvec2(kWidth, kHeight) * (glm::dvec2(clip) / clip.w + 1.0);
   }

@@ -58,7 +58,7 @@ class SourceReader {
     if (follows("/*")) return skip_past("*/");
     if (follows("R\"")) return read_raw_literal();
     if (c == '"') return read_literal();
-    if (is_space(c)) return skip(1);  // between adjacent literals
+    if (is_space(c)) return skip(1);  // blank between adjacent literals
     end_message();
     // a digit's separator is no character literal
     if (c == '\'' && !(at_ > 0 && is_letter(source_[at_ - 1]))) {

@@ -43,7 +43,7 @@ TEST(Percentiles, OfNothingAreZero) {
 
 TEST(Percentiles, OfAHistogramAreUpperEdgesOfBins) {
   std::array<std::uint32_t, 5> bins{};
-  bins[0] = 50;  // up to 1 us
+  bins[0] = 50;  // latencies up to 1 us
   bins[1] = 49;
   bins[3] = 1;
   const Percentiles of = percentiles(bins, 4);

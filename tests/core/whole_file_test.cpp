@@ -5,14 +5,17 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/exit_code.h"
+#include "core/new_file.h"
 #include "support/scratch_folder.h"
 
 namespace afm::core {
@@ -38,6 +41,29 @@ TEST_F(WholeFile, IsReplacedAndKeepsItsPermissions) {
   ASSERT_TRUE(write_file(path("a"), std::string("t\0wo", 4)));
   EXPECT_EQ(content("a"), std::string("t\0wo", 4));
   EXPECT_EQ(fs::status(path("a")).permissions(), fs::perms(0640));
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WholeFile, ThatIsNewReplacesNoFile) {
+  ASSERT_TRUE(write_new_file(path("a"), "one"));
+  const auto second = write_new_file(path("a"), "two");
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().category, ErrorCategory::WrongUsage);
+  EXPECT_THAT(second.error().message, EndsWith("no file is replaced; choose another name"));
+  EXPECT_EQ(content("a"), "one");
+  EXPECT_EQ(files(), 1);
+}
+
+// Of two programs that write a file at once, one is refused.
+TEST_F(WholeFile, ThatIsNewIsWrittenByOneOfMany) {
+  constexpr int kWriters = 8;
+  std::atomic<int> written{0};
+  std::vector<std::jthread> writers;
+  for (int i = 0; i < kWriters; ++i) {
+    writers.emplace_back([&] { written += write_new_file(path("a"), "mine") ? 1 : 0; });
+  }
+  writers.clear();
+  EXPECT_EQ(written, 1);
   EXPECT_EQ(files(), 1);
 }
 

@@ -337,6 +337,21 @@ TEST(ColumnTable, ComparesItsHeadingWithTheUnits) {
   EXPECT_THAT(remarks("# z [um]\tdeflection [V]", "height:um force:nN"), testing::ElementsAre(HasSubstr("column 2")));
   EXPECT_THAT(remarks("Height (\u00b5m)\tForce (nN)", "height:um force:-nN"), testing::IsEmpty());
   EXPECT_THAT(remarks("Height (raw)\tForce", "height:um force:nN"), testing::IsEmpty());
+  for (const char* heading : {"z / nm\tF / nN", "Height_nm\tForce_nN", "z, nm\tF, nN", "height: nm\tforce: nN"}) {
+    EXPECT_THAT(remarks(heading, "height:um force:nN"), testing::ElementsAre(HasSubstr("column 1"))) << heading;
+    EXPECT_THAT(remarks(heading, "height:nm force:nN"), testing::IsEmpty()) << heading;
+  }
+  EXPECT_THAT(remarks("z / m\tin the N", "height:um force:nN"), testing::ElementsAre(HasSubstr("column 1")));
+  EXPECT_THAT(remarks("curve A\tchannel V", "height:um force:nN"), testing::IsEmpty());
+}
+
+TEST(ColumnTable, SaysThatItHasMoreColumns) {
+  const auto row = [](int i, double z, double f) { return fmt::format("{}\t{}\t{}", z, f, i); };
+  const auto wider = parse_curve(rows_of(row), "a.txt", columns("height:nm force:nN"));
+  ASSERT_TRUE(wider);
+  EXPECT_THAT(wider->metadata.remarks, testing::ElementsAre(HasSubstr("line 1 has 3 columns, and --columns names 2")));
+  EXPECT_THAT(parse_curve(rows_of(row), "a.txt", columns("height:nm force:nN -"))->metadata.remarks,
+              testing::IsEmpty());
 }
 
 TEST(ColumnTable, SaysWhyNoLineFits) {

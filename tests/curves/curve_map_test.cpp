@@ -79,7 +79,7 @@ void expect_same(const scene::SharedMeasuredCurve& a, const scene::SharedMeasure
 TEST_F(ForceMap, IsReadWithTheCalibrationThatIsGiven) {
   const std::string path = write(test::jpk_map(test::sticky_curve));
   CurveReading calibration;
-  calibration.spring_constant = physics::Stiffness(1.1);  // twice that of the file
+  calibration.spring_constant = physics::Stiffness(1.1);  // twice the value of the file
   const auto own = CurveMap::load(path, kGoOn), given = CurveMap::load(path, kGoOn, calibration);
   ASSERT_TRUE(own && given);
   const auto before = own->material({1, 0}, mica()), after = given->material({1, 0}, mica());

@@ -75,7 +75,7 @@ TEST(GsfImage, WithoutXRealIsOneWideAndSidesCountByTheirAbsoluteValue) {
 
 TEST(GsfImage, SaysThatSidesWithoutAUnitAreTakenAsMetres) {
   for (const char* unit : {"", "XYUnits = \n"}) {
-    const std::string bytes = gsf_file(std::string("XRes = 2\nYRes = 2\nXReal = 0.5\n") + unit, {1, 2, 3, 4});
+    const std::string bytes = gsf_file(std::string("XRes=2\nYRes=2\nXReal=1\nYReal=1\n") + unit, {1, 2, 3, 4});
     EXPECT_THAT(loaded(bytes).remarks, testing::ElementsAre(HasSubstr("taken as metres"))) << unit;
   }
   EXPECT_THAT(loaded(gsf_file(kGsfLines, {0, 1, 2, 3, 4, 5})).remarks, testing::IsEmpty());
@@ -185,7 +185,7 @@ TEST(NanoscopeImage, TakesFourByteIntegersAndTheDivisorOfTwo) {
 TEST(NanoscopeImage, TakesBytesPerPixelAtItsWordBeforeThatVersion) {
   const double lsb = 440.0 / 65536.0 * 12.5e-9;
   const auto two = values(loaded(nanoscope_file("0x08150300", {nanoscope_height(2, 2)})));
-  const double expected[] = {20000, 0, 1, -4, -5, -6};  // the bottom row lies first in the file
+  const double expected[] = {20000, 0, 1, -4, -5, -6};  // bottom row, first in the file
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(two[i], expected[i] * lsb, 1e-12 * std::abs(two[i]));
   const auto four = values(loaded(nanoscope_file("0x09100000", {nanoscope_height(4, 4)})));
   EXPECT_NEAR(four[0], two[0] / 65536.0, 1e-12 * four[0]);

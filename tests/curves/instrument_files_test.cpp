@@ -120,6 +120,18 @@ TEST(JpkFile, TakesACalibrationThatItDoesNotHold) {
   EXPECT_DOUBLE_EQ(curve->points[15].force.si, (500 * 3e-4 - 0.007) * 50e-9 * 0.1);
 }
 
+// Forces of zero would follow.
+TEST(JpkFile, IsNotCalibratedByZeros) {
+  for (const auto& [slot, option] :
+       {std::pair("force", "give --spring-constant"), std::pair("distance", "give --sensitivity")}) {
+    auto entries = jpk_entries();
+    for (const char* segment : {"segments/0/segment-header.properties", "segments/1/segment-header.properties"}) {
+      entries[segment] += fmt::format("channel.vDeflection.conversion-set.conversion.{}.scaling.multiplier=0\n", slot);
+    }
+    EXPECT_THAT(error_of(test::stored_zip(entries)), testing::EndsWith(option));
+  }
+}
+
 TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
   const auto refusal = [](const std::string& entry, const std::string& text) {
     auto entries = jpk_entries();
@@ -313,6 +325,15 @@ TEST(IgorFile, IsTurnedAtItsDeepestPointAndScaledByItsNote) {
   EXPECT_EQ(curve->metadata.instrument, "MFP3D");
   EXPECT_EQ(curve->metadata.date, "2020-02-05");
   EXPECT_DOUBLE_EQ(*curve->metadata.sensitivity_m_per_v, 4.499e-08);
+}
+
+TEST(IgorFile, SaysThatPointsWithinItWereNotRecorded) {
+  EXPECT_THAT(parse_curve(igor_cycle().bytes(), "a.ibw")->metadata.remarks, testing::IsEmpty()) << "filled up";
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  const auto gap = parse_curve(igor_cycle().set(5, kNaN, 0.0F).set(6, 0.0F, kNaN).bytes(), "a.ibw");
+  ASSERT_TRUE(gap.has_value());
+  EXPECT_EQ(gap->points.size(), 38U);
+  EXPECT_THAT(gap->metadata.remarks, testing::Contains(HasSubstr("2 of its 40 points were not recorded")));
 }
 
 // What Asylum's program adds has no number of the curve, but a file without its end was not copied whole.

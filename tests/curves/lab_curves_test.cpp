@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ namespace lab_curves_test {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr double kFourDigits = 1e-4;  // relative
+constexpr double kFourDigits = 1e-4;  // relative tolerance
 
 std::string path_of(const std::string& name) { return support::source("tests/data/afm/" + name); }
 
@@ -258,14 +259,31 @@ TEST(LabCurves, OfAnyOrderAreTheSame) {
 TEST(LabCurves, InNewtonsSayThatACalibrationChangesNothing) {
   auto bytes = core::read_file(path_of("bom.tab"));
   ASSERT_TRUE(bytes.has_value());
-  std::string no_lever = *bytes;
   const std::string line = ",\n#   \"spring constant\": 0.05";
-  ASSERT_NE(no_lever.find(line), std::string::npos);
-  no_lever.erase(no_lever.find(line), line.size());
-  const auto read =
-      parse_curve(no_lever, "a.tab", {.spring_constant = physics::Stiffness(0.1), .sensitivity_m_per_v = {}});
-  ASSERT_TRUE(read.has_value()) << read.error().message;
-  EXPECT_THAT(read->metadata.remarks, ElementsAre(HasSubstr("they do not change")));
+  ASSERT_NE(bytes->find(line), std::string::npos);
+  for (const char* none : {"", ",\n#   \"spring constant\": 0"}) {
+    const std::string no_lever = std::string(*bytes).replace(bytes->find(line), line.size(), none);
+    const auto read =
+        parse_curve(no_lever, "a.tab", {.spring_constant = physics::Stiffness(0.1), .sensitivity_m_per_v = {}});
+    ASSERT_TRUE(read.has_value()) << read.error().message;
+    EXPECT_THAT(read->metadata.remarks, ElementsAre(HasSubstr("they do not change")));
+  }
+}
+
+// As Fortran and LabVIEW write them; an editor may leave blanks behind a line.
+TEST(LabCurves, MayHaveSignsAndBlanksBehindTheirLines) {
+  const auto bytes = core::read_file(path_of("bom.tab"));
+  ASSERT_TRUE(bytes.has_value());
+  const auto plain = parse_curve(*bytes, "a.tab");
+  ASSERT_TRUE(plain.has_value());
+  const auto signed_numbers = parse_curve(std::regex_replace(*bytes, std::regex("\t([0-9])"), "\t+$1"), "a.tab");
+  ASSERT_TRUE(signed_numbers.has_value()) << signed_numbers.error().message;
+  EXPECT_EQ(curve_bytes(CurveFormat::Tab, *signed_numbers).value(), curve_bytes(CurveFormat::Tab, *plain).value());
+  const auto own = core::read_file(support::source("tests/fuzz/corpus/curve_files/touchafm.csv"));
+  ASSERT_TRUE(own.has_value());
+  const auto blanks = parse_curve(std::regex_replace(*own, std::regex("\n"), " \n"), "a.csv");
+  ASSERT_TRUE(blanks.has_value()) << blanks.error().message;
+  EXPECT_EQ(blanks->points.size(), parse_curve(*own, "a.csv")->points.size());
 }
 
 }  // namespace lab_curves_test

@@ -235,6 +235,51 @@ TEST(LabImageFiles, TakeAnIgorWaveOfOneLayer) {
   EXPECT_EQ(read.image.channels[0].values, (std::vector<double>{4, 5, 6, 1, 2, 3}));
 }
 
+TEST(LabImageFiles, SayThatTheirSizeOrHeightsAreImpossible) {
+  const auto remarks = [](const std::string& lines, const std::vector<float>& values) {
+    return parsed(test::gsf_file("XRes = 2\nYRes = 2\nXYUnits = um\nZUnits = m\n" + lines, values)).remarks;
+  };
+  const std::vector<float> low{1e-9F, 2e-9F, 3e-9F, 4e-9F};
+  EXPECT_THAT(remarks("XReal = 1\nYReal = 2\n", low), IsEmpty());
+  EXPECT_THAT(remarks("", low), ElementsAre(HasSubstr("its size (XReal, YReal), which is taken as 1e-06 m")));
+  EXPECT_THAT(remarks("XReal = 1\n", low), ElementsAre(HasSubstr("its height (YReal)")));
+  EXPECT_THAT(remarks("YReal = 1\n", low), ElementsAre(HasSubstr("its width (XReal)")));
+  const std::vector<float> swapped{1e-9F, -2e30F, 3e-9F, 4e-9F};
+  EXPECT_THAT(remarks("XReal = 1\nYReal = 1\n", swapped),
+              ElementsAre(HasSubstr("a height of -2e+30 m is none of a microscope")));
+}
+
+// The same image with another value of a key in its header.
+std::string altered(const std::string& image, const std::string& key, const std::string& value) {
+  constexpr std::size_t kHeader = 4096;
+  std::string header = image.substr(0, kHeader);
+  const std::size_t at = header.find(key) + key.size(), end = header.find("\r\n", at);
+  header.replace(at, end - at, value);
+  header.resize(kHeader);
+  return header + image.substr(kHeader);
+}
+
+TEST(LabImageFiles, AreRefusedWhereAnAlteredHeaderWouldGiveOtherHeights) {
+  const std::string whole = test::nanoscope_file("0x08150300", {nanoscope("Height", 4, 2)});
+  const auto reason = [&](const std::string& key, const std::string& value) {
+    const auto read = parse_image(altered(whole, key, value), "a.spm");
+    return read ? "accepted" : read.error().message;
+  };
+  EXPECT_THAT(reason("\\Data offset: ", "20"), HasSubstr("its data begin at byte 20, within its header"));
+  EXPECT_THAT(reason("\\Data offset: ", "-1"), HasSubstr("within its header"));
+  EXPECT_THAT(reason("\\@Sens. Zsens: V ", "0 nm/V"), HasSubstr("its \"Sens. Zsens\" is 0"));
+}
+
+TEST(LabImageFiles, HaveTheirHeightsWhateverTheUnitOfASensitivity) {
+  const std::string whole = test::nanoscope_file("0x08150300", {nanoscope("Height", 4, 2)});
+  const double height_m = parsed(whole).image.channels.at(0).values.at(3);
+  for (const char* same : {"+12.5 nm/V", "12.5 pm/mV", "0.0125 nm/mV", "0.0125 um/V"}) {
+    const LoadedImage read = parsed(altered(whole, "\\@Sens. Zsens: V ", same));
+    EXPECT_EQ(read.image.channels.at(0).unit, "m") << same;
+    EXPECT_NEAR(read.image.channels.at(0).values.at(3) / height_m, 1.0, 1e-12) << same;
+  }
+}
+
 TEST(LabImageFiles, MayBeInAngstroms) {
   for (const char* unit : {"\xC3\x85", "\xE2\x84\xAB", "\xC5"}) {
     const auto image = parse_image(

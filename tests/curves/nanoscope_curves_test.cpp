@@ -244,6 +244,40 @@ TEST(NanoscopeCurve, RefusesWhatItDoesNotUnderstand) {
   EXPECT_THAT(changed([](Ramp& r) { r.spring = "\\Spring Constant: nan\r\n"; }), HasSubstr("is no number"));
 }
 
+// Other programs write signs and other units into these headers.
+TEST(NanoscopeCurve, IsTheSameInOtherUnits) {
+  const double push_n = read(usual()).points[kPoints - 1].force.si;
+  const auto push_of = [](const auto& change) {
+    Ramp ramp = usual();
+    change(ramp);
+    return read(ramp).points[kPoints - 1].force.si;
+  };
+  const auto scale = [&](const char* text) { return push_of([=](Ramp& r) { r.channels[0].scale = text; }); };
+  EXPECT_DOUBLE_EQ(scale("V [Sens. DeflSens] (0.0003750 V/LSB) 24576 mV"), push_n);
+  EXPECT_DOUBLE_EQ(scale("V [Sens. DeflSens] (0.3750 mV/LSB) 24.576 V"), push_n);
+  EXPECT_DOUBLE_EQ(scale("V [Sens. DeflSens] (+0.0003750 V/LSB) +24.576 V"), push_n);
+  for (const char* sensitivity : {"+60.0 nm/V", "0.06 um/V", "60 pm/mV", "0.06 nm/mV"}) {
+    const auto text = fmt::format("\\@Sens. DeflSens: V {}\r\n", sensitivity);
+    EXPECT_NEAR(push_of([&](Ramp& r) { r.sensitivity = text; }) / push_n, 1.0, 1e-12) << sensitivity;
+  }
+  for (const char* spring : {"+0.32", "0.32 N/m", "320 mN/m", "0.32 nN/nm"}) {
+    const auto text = fmt::format("\\Spring Constant: {}\r\n", spring);
+    EXPECT_NEAR(push_of([&](Ramp& r) { r.spring = text; }) / push_n, 1.0, 1e-12) << spring;
+  }
+  Ramp torsion = usual();
+  torsion.spring = "\\Spring Constant: 0.32 nN m\r\n";
+  EXPECT_THAT(refusal(file_of(torsion)), HasSubstr("its spring constant is in \"nN m\", not in N/m"));
+}
+
+TEST(NanoscopeCurve, HasNoDataInItsHeader) {
+  const std::string whole = file_of(usual());
+  for (const char* offset : {"   0", " 500", "  -1"}) {
+    std::string altered = whole;
+    altered.replace(altered.find("\\Data offset: 4096") + 14, 4, offset);
+    EXPECT_THAT(refusal(altered), HasSubstr("within its header: was the header altered?")) << offset;
+  }
+}
+
 TEST(NanoscopeCurve, RefusesEveryCut) {
   const std::string whole = file_of(usual());
   EXPECT_EQ(refusal(whole), "accepted");

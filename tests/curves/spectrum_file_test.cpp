@@ -79,6 +79,13 @@ TEST(SpectrumFile, HasDecimalCommasBetweenOtherSeparators) {
   expect_refused("Hz, V2/Hz\n1000, 5 7\n", "line 2");
 }
 
+TEST(SpectrumFile, MayHaveSigns) {
+  const Spectrum spectrum = read("Hz V2/Hz\n+1 +2e-12\n+2 +3e-12\n");
+  ASSERT_EQ(spectrum.rows.size(), 2U);
+  EXPECT_DOUBLE_EQ(spectrum.rows[0].density, 2e-12);
+  expect_refused("Hz V2/Hz\n1 +-2\n", "line 2");
+}
+
 TEST(SpectrumFile, HasUnitsInLatin1) {
   EXPECT_NEAR(read("Hz \xb5V\xb2/Hz\n1 2\n").rows.at(0).density, 2e-12, 1e-24);
   EXPECT_NEAR(read("Hz \xb5m/sqrt(Hz)\n1 2\n").rows.at(0).density, 4e-12, 1e-24);

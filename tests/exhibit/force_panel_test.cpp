@@ -15,6 +15,7 @@
 #include "physics/cycle_figures.h"
 #include "support/phrases.h"
 #include "support/places.h"
+#include "support/sweet_spot.h"
 
 namespace afm::exhibit {
 namespace force_panel_test {
@@ -66,7 +67,7 @@ TEST(ForcePanel, NoLabelCoversAnotherForAnyMaterialOfTheLibrary) {
     const scene::MaterialLibrary one{{entry}};
     const WallScene scene = WallScene::load(assets, one, stage_place(wall), test::english()).value();
     const std::vector<curves::SampleModel> felt{curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value()};
-    const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
+    const FrameBuilder frames(scene, felt, support::eyes_at_sweet_spot(wall));
     Moment moment;
     moment.wall.material = 0;
     const render::ForcePanel panel = frames.build(moment).panels.force.content;
@@ -101,7 +102,7 @@ TEST(ForcePanel, ThePresentSamplesCurveIsThereAlone) {
   for (const scene::MaterialEntry& entry : library.materials)
     felt.push_back(curves::make_sample_model(curves::ContactSetup{entry, {}, {}}).value());
   const std::vector<CycleCurve> curves(felt.size(), CycleCurve::from({{20.0, 0.0}, {-2.0, 0.3}, {20.0, 0.0}}));
-  const FrameBuilder frames(scene, felt, eyes_at_sweet_spot(wall).value());
+  const FrameBuilder frames(scene, felt, support::eyes_at_sweet_spot(wall));
   Moment moment;
   moment.curves = curves;
   moment.wall.material = 1;

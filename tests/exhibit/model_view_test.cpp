@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "exhibit/models/model_view.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -169,6 +170,20 @@ TEST_F(OwnModel, BecomesAProbeByItsRoles) {
   const auto nothing = load_own_models(write(R"("nodes": [{"mesh": 0, "name": "tip"}])"), "");
   ASSERT_FALSE(nothing);
   EXPECT_THAT(nothing.error().message, HasSubstr("needs a node for the role base and one for tip"));
+}
+
+// As exporters leave a mesh that was modelled far from the origin.
+TEST_F(OwnModel, IsNoSampleBesideTheTip) {
+  for (const auto& [place, is_sample] :
+       {std::pair("[0, 0, 0]", true), std::pair("[-4e-8, 0, 0]", true), std::pair("[1e-7, 0, 0]", false),
+        std::pair("[0, -1e-7, 0]", false), std::pair("[1e6, 0, 0]", false)}) {
+    const std::string nodes =
+        R"("nodes": [{"name": "surface", "children": [1]}, {"mesh": 0, "scale": [4e-8, 4e-8, 4e-8])";
+    const auto own = load_own_models("", write(nodes + ", \"translation\": " + place + "}]"));
+    ASSERT_EQ(own.has_value(), is_sample) << place << (own ? "" : own.error().message);
+    if (own) continue;
+    EXPECT_THAT(own.error().message, HasSubstr("lies beside the sample: put it on the surface"));
+  }
 }
 
 TEST_F(OwnModel, BecomesASampleThatIsFeltAsItIsDrawn) {

@@ -18,6 +18,11 @@ namespace afm::test {
 
 inline constexpr std::uint32_t kLargestImage = 16384;
 
+inline render::PanelFonts load_panel_fonts(double texels_per_m, double millimetre_m) {
+  render::FontFiles files = render::read_panel_fonts().value();
+  return render::draw_panel_fonts(files, texels_per_m, millimetre_m, kLargestImage).value();
+}
+
 struct ContextEnd {
   void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 };
@@ -43,7 +48,7 @@ struct Painted {
 class Painter {
  public:
   Painter(double texels_per_m, double millimetre_m)
-      : fonts_(render::load_panel_fonts(texels_per_m, millimetre_m, kLargestImage).value()),
+      : fonts_(load_panel_fonts(texels_per_m, millimetre_m)),
         millimetre_m_(millimetre_m),
         imgui_(ImGui::CreateContext(fonts_.atlas.get())) {
     unsigned char* pixels = nullptr;

@@ -278,7 +278,7 @@ INSTANTIATE_TEST_SUITE_P(Presets, ReadableWalls, ::testing::ValuesIn(kPresets));
 
 // The accents of the pseudo-locale and of German.
 TEST(PanelFonts, HoldEveryLetterOfEveryLanguage) {
-  const render::PanelFonts fonts = render::load_panel_fonts(400.0, 1e-3, kLargestImage).value();
+  const render::PanelFonts fonts = test::load_panel_fonts(400.0, 1e-3);
   for (const std::string& text : {std::string("äöüßÄÖÜáêïÿÅÉÏØÝ„“–…×°µ²√γ→−"), test::pseudo_language(),
                                   core::read_file(test::kPhraseFolder + "de.toml").value()}) {
     const char* at = text.data();
@@ -298,7 +298,7 @@ TEST(PanelFonts, HoldEveryLetterOfEveryLanguage) {
 // From the last row of a room, 10 m away, 40 minutes of arc.
 TEST(PanelFonts, ShowTheLiveForceInDigitsForTheLastRow) {
   constexpr double kLeastMm = 116.3;
-  const render::PanelFonts fonts = render::load_panel_fonts(2000.0, 1e-3, kLargestImage).value();
+  const render::PanelFonts fonts = test::load_panel_fonts(2000.0, 1e-3);
   const ImFont& font = *fonts.fonts[static_cast<std::size_t>(render::TextStyle::Figure)];
   for (const char digit : std::string_view("0123456789")) {
     const ImFontGlyph* glyph = font.FindGlyphNoFallback(static_cast<ImWchar>(digit));
@@ -314,7 +314,7 @@ TEST(PanelFonts, ShowTheLiveForceInDigitsForTheLastRow) {
 // the paper's wall, that is too small for a flash (WCAG 2.3.1).
 TEST(PanelFonts, ShowTheLiveForceTooSmallForAFlash) {
   constexpr double kLargestSafeSr = 0.006, kDiffers = 0.5, kDigits = 4.0, kViewerM = 2.5;
-  const render::PanelFonts fonts = render::load_panel_fonts(2000.0, 1e-3, kLargestImage).value();
+  const render::PanelFonts fonts = test::load_panel_fonts(2000.0, 1e-3);
   const ImFont& font = *fonts.fonts[static_cast<std::size_t>(render::TextStyle::Figure)];
   const ImFontGlyph* glyph = font.FindGlyphNoFallback('0');
   ASSERT_NE(glyph, nullptr);

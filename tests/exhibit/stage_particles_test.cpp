@@ -188,7 +188,7 @@ TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
     last_m = glm::length(from_start_m);
   }
   EXPECT_LT(last_m, glm::length(way_m));
-  pages[0].poses[2].x_m += 1.0;  // as far as a damaged session may have it
+  pages[0].poses[2].x_m += 1.0;  // place as far off as a damaged session may have it
   EXPECT_LE(frame(wall, &now).copies[3].copies.size(), wall.scene().nodes[dots.node].most_copies);
 }
 

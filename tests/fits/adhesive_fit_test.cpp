@@ -321,7 +321,7 @@ TEST(AdhesiveFit, HasTheShareOfEachError) {
   // F = W R f(d R^(1/3) (E/W)^(2/3)): the same curve with E ~ R^(-1/2), W ~ 1/R
   EXPECT_NEAR(fit.systematic[1].modulus_share, 0.05, 1e-4);
   EXPECT_NEAR(fit.systematic[1].work_share, 0.1, 1e-4);
-  EXPECT_NEAR(fit.systematic[2].modulus_share, 0.02, 2e-4);  // by half the step, below 0.5 alone
+  EXPECT_NEAR(fit.systematic[2].modulus_share, 0.02, 2e-4);  // change by half the step: below 0.5 only
   EXPECT_NEAR(fit.systematic[2].work_share, 0.0, 1e-9);
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "haptics/device_registry.h"
 #include "support/places.h"
 #include "support/scratch_folder.h"
 
@@ -116,13 +117,21 @@ TEST(HapticPorts, NameTheGroupOrTheRuleThatIsMissing) {
 TEST(HapticPorts, HaveTheirRowInTheUdevRules) {
   std::ifstream file(afm::support::source("assets/haptics/70-touchafm-haptics.rules"));
   const std::string rules{std::istreambuf_iterator<char>(file), {}};
-  for (const auto& [bus, device] :
-       {std::pair(HapticBus::Serial, "Touch"), std::pair(HapticBus::Serial, ""), std::pair(HapticBus::Hid, "Touch"),
-        std::pair(HapticBus::Usb, "Force Dimension device"), std::pair(HapticBus::Usb, "Novint Falcon")}) {
+  const auto expect_rule = [&](HapticBus bus, const std::string& device) {
     const auto rights =
         judge_rights({{.path = "/dev/x", .device = device, .bus = bus, .accessible = false, .group = ""}});
     EXPECT_THAT(rules, HasSubstr("\n" + rights.udev_rule + "\n")) << device;
+  };
+  std::size_t ports = 0;
+  for (const DeviceKind& kind : device_kinds()) {
+    for (const KnownPort& port : kind.ports) {
+      expect_rule(port.bus, port.device);
+      EXPECT_THAT(rules, HasSubstr(std::string("\n") + port.udev_rule + "\n")) << port.device;
+      ++ports;
+    }
   }
+  EXPECT_GE(ports, 5U);
+  expect_rule(HapticBus::Serial, "");  // port of an unknown device
 }
 
 }  // namespace haptic_ports_test

@@ -305,7 +305,7 @@ TEST_P(AtRate, N79ARollingSphereTurnsByItsTravel) {
   EXPECT_EQ(felt.push().state, PushState::Rolls);
   const scene::ParticlePose& pose = felt.pages()[0].poses[0];
   EXPECT_EQ(pose.moved, PushState::Rolls);
-  const double turned = 2.0 * std::atan2(pose.orientation[2], pose.orientation[0]);  // about y
+  const double turned = 2.0 * std::atan2(pose.orientation[2], pose.orientation[0]);  // angle about y
   EXPECT_NEAR(turned, (pose.x_m - rho) / 250e-9, 1e-3);
 }
 

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
 namespace afm::input {
 namespace orientation_filter_test {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStepS = 0.005;
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 
@@ -65,20 +63,21 @@ TEST(OrientationFilter, LearnsTheBiasWhileTheWandLiesStillSoThatTheHeadingStays)
   OrientationFilter filter;
   const glm::dvec3 bias(0.01, -0.05, 0.02);
   for (int i = 0; i < 400; ++i) filter.add(reading(pitch(0.0), bias), kStepS);
-  EXPECT_NEAR(glm::length(filter.bias_rad_per_s() - bias), 0.0, 1e-9);
   const double before = filter.heading_rad();
   for (int i = 0; i < 12'000; ++i) filter.add(reading(pitch(0.0), bias), kStepS);
-  EXPECT_NEAR(filter.heading_rad(), before, 0.1 * kDegree) << "within a minute";
+  EXPECT_NEAR(filter.heading_rad(), before, 1e-5) << "within a minute";
 }
 
 TEST(OrientationFilter, TakesNoTurningHandForABias) {
   OrientationFilter filter;
   filter.add(reading(pitch(0.0)), kStepS);
+  double turned_rad = 0.0;
   for (int i = 1; i <= 1000; ++i) {
-    const double t = i * kStepS;
-    filter.add(reading(yaw(0.0), glm::dvec3(0.0, 0.3 * std::sin(8.0 * t), 0.0)), kStepS);
+    const double rate = 0.3 * std::sin(8.0 * i * kStepS);
+    turned_rad += rate * kStepS;
+    filter.add(reading(yaw(0.0), glm::dvec3(0.0, rate, 0.0)), kStepS);
   }
-  EXPECT_EQ(filter.bias_rad_per_s(), glm::dvec3(0.0));
+  EXPECT_NEAR(filter.heading_rad(), turned_rad, 1e-6);
 }
 
 TEST(OrientationFilter, WithoutAGyroscopeFollowsGravityAlone) {

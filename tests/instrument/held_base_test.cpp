@@ -78,6 +78,19 @@ TEST(HeldBaseOfAMicroscope, KeepsTheForceWhenTheFeedbackLetsGo) {
   }
 }
 
+TEST(HeldBaseOfAMicroscope, ShowsNoPullThatNoContactBears) {
+  for (const bool engaged_before : {false, true}) {
+    SimulatedInstrument instrument = instrument_with([](InstrumentSettings&) {});
+    if (engaged_before) instrument.approach(1e-6);
+    InstrumentSettings settings(instrument.settings());
+    settings.scan.setpoint = physics::Force(-1e-6);
+    ASSERT_TRUE(instrument.change(settings));
+    instrument.approach(1e-6);
+    const double pull_off_n = curves::run_curve(instrument.setup(), {}).value().figures.force_before_joc.si;
+    EXPECT_NEAR(instrument.shown_force() / pull_off_n, 1.0, 1e-9);
+  }
+}
+
 TEST(HeldBaseOfAMicroscope, FeelsTheRelief) {
   SimulatedInstrument instrument = instrument_with([](InstrumentSettings& settings) { settings.flat = false; });
   instrument.approach(1e-6);

@@ -63,12 +63,12 @@ class NanonisDoorTest : public testing::Test {
     const std::string results =
         results_of("Scan.FrameDataGrab", NanonisWriter().add(channel).add(std::uint32_t{forward ? 1U : 0U}));
     NanonisReader in(results);
-    in.text();
+    const std::size_t name = in.text().size();
     const auto rows = in.read<std::int32_t>(), columns = in.read<std::int32_t>();
     std::vector<float> values;
     for (std::int32_t i = 0; i < rows * columns; ++i) values.push_back(in.read<float>());
     in.read<std::uint32_t>();
-    EXPECT_TRUE(in.is_at_end());
+    EXPECT_EQ(results.size(), 4 + name + 4 + 4 + sizeof(float) * values.size() + 4);
     return values;
   }
 
@@ -275,8 +275,12 @@ TEST_F(NanonisDoorTest, NamesItsSignals) {
   names.read<std::int32_t>();
   ASSERT_EQ(names.read<std::int32_t>(), 128);
   std::vector<std::string> all;
-  for (int i = 0; i < 128; ++i) all.emplace_back(names.text());
-  EXPECT_TRUE(names.is_at_end());
+  std::size_t size = 8;
+  for (int i = 0; i < 128; ++i) {
+    all.emplace_back(names.text());
+    size += 4 + all.back().size();
+  }
+  EXPECT_EQ(names_bytes.size(), size);
   EXPECT_EQ(all[30], "Z (m)");
   const std::string slots_bytes = results_of("Signals.InSlotsGet");
   NanonisReader slots(slots_bytes);

@@ -45,7 +45,7 @@ std::vector<Exchange> exchanges_in(const std::string& file) {
 std::vector<float> numbers_in(std::string_view bytes) {
   NanonisReader in(bytes);
   std::vector<float> numbers;
-  while (!in.is_at_end()) numbers.push_back(in.read<float>());
+  for (std::size_t i = 0; i < bytes.size() / sizeof(float); ++i) numbers.push_back(in.read<float>());
   return numbers;
 }
 

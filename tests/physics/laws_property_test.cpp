@@ -22,7 +22,7 @@
 namespace afm::physics {
 namespace laws_property_test {
 
-const int kMaterials = support::draws(1'500);  // a law: more than ten thousand in all, deep
+const int kMaterials = support::draws(1'500);  // draws per law: more than ten thousand in all in a deep check
 
 // None where the paper's law or Hao's has no loop: an adhesion weaker than what the van der Waals force pulled in.
 std::shared_ptr<const LawTables> tables_of(Law law, const ContactParameters& contact) {

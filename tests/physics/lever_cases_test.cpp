@@ -24,6 +24,24 @@ namespace lever_cases_test {
 
 using namespace literals;
 
+Mass mass(const RectangularLever& lever) { return lever.density * lever.length * lever.width * lever.thickness; }
+
+// Mass of a point on the lever's spring that resonates at the lever's first frequency.
+Mass effective_mass(const RectangularLever& lever) {
+  const Frequency angular = 2.0 * std::numbers::pi * vacuum_resonance(lever);
+  return spring_constant(lever) / (angular * angular);
+}
+
+// dw/dx at the end: the tangent of the angle of the end and the tip.
+double end_slope(Length lever_length, Length end_deflection) {
+  return beam_slope(1.0) * (end_deflection / lever_length);
+}
+
+// Displacement of the reflected spot of an optical lever on a detector: a mirror rotates a ray by twice its own angle.
+Length spot_displacement(Length lever_length, Length detector_distance, Length end_deflection) {
+  return 2.0 * end_slope(lever_length, end_deflection) * detector_distance;
+}
+
 double beam_value(const Case& row) {
   if (row.id == "beam_01") {
     const RectangularLever lever{Length(row.input("L")), Length(row.input("w")), Length(row.input("t")),
@@ -151,7 +169,8 @@ double ramp_value(const Case& row) {
   Force peak;
   while (tip.velocity() < Velocity()) {
     tip.sub_step();
-    peak = std::max(peak, tip.surface_force());
+    bool attached = tip.attached();
+    peak = std::max(peak, tip.surface()(tip.height(), attached));
   }
   if (row.output == "tip_z_at_first_turning_point") return tip.height().si;
   if (row.output == "first_peak_contact_force") return peak.si;

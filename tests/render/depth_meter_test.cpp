@@ -92,7 +92,7 @@ TEST_F(DepthMeters, FollowsEveryFrameThroughResizes) {
     frame.room_from_node[0][3].z = z;
     renderer.render(frame);
     meter.measure();
-    meter.measure();  // one is running
+    meter.measure();  // request while one is running
     meter.wait();
     ASSERT_TRUE(meter.newest());
     EXPECT_NEAR(meter.newest()->nearest_m, kHeadM - z, kToleranceM);

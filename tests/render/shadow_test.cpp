@@ -160,9 +160,9 @@ TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
   render::RendererOptions one_light = small(1);
   one_light.lighting = render::Lighting::KeyAlone;
   const render::Image alone = draw(scene, frame, one_light).left;
-  EXPECT_GT(difference(alone, lit, 8).share_beyond, 0.01);  // without the studio
+  EXPECT_GT(difference(alone, lit, 8).share_beyond, 0.01);  // part lit by the studio
   constexpr std::array<std::uint8_t, 4> kPlain{64, 69, 79, 255};
-  EXPECT_TRUE(std::equal(kPlain.begin(), kPlain.end(), alone.rgba.begin()));  // behind everything, in the corner
+  EXPECT_TRUE(std::equal(kPlain.begin(), kPlain.end(), alone.rgba.begin()));  // background in the corner
   frame.visible[lid] = 0;
   EXPECT_EQ(draw(scene, frame, one_light).left.rgba, alone.rgba);
 }

@@ -268,7 +268,7 @@ json rich_json() {
   d["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});    // 2
   d["accessors"].push_back({{"componentType", 5121}, {"count", 4}, {"type", "VEC4"}});    // 3
   d["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}});  // 4
-  d["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "VEC3"}});    // 5
+  d["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "VEC3"}});    // accessor 5
   d["accessors"].push_back({{"componentType", 5126}, {"count", 1}, {"type", "MAT4"}});    // 6
   d["meshes"][0]["primitives"][0]["attributes"]["JOINTS_0"] = 3;
   d["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = 2;

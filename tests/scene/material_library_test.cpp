@@ -272,8 +272,8 @@ TEST(MaterialFile, RefusesANameTwiceOrTooLong) {
 TEST(MaterialFile, SaysWhenItCannotBeReadOrParsed) {
   const auto missing = load_materials("/no/such/file.toml");
   ASSERT_FALSE(missing.has_value());
-  EXPECT_EQ(missing.error().message,
-            "material file /no/such/file.toml: cannot be read; check the path and its permissions");
+  EXPECT_EQ(missing.error().message, "material file /no/such/file.toml: cannot be read: there is no such file");
+  EXPECT_THAT(load_materials("/").error().message, HasSubstr("cannot be read: it is a folder, not a file"));
   EXPECT_THAT(refusal(changed("title = \"Mica\"", "title = \"Mica")), HasSubstr("line 3: "));
 }
 

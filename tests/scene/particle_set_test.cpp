@@ -271,7 +271,8 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_THAT(refusal(changed("value = 0.44", "value = 4.4")),
               HasSubstr("species.particle_poisson_ratio: particle poisson ratio 4.4"));
   EXPECT_THAT(refusal(changed("\"10 nm\"", "\"80 nm\"")), HasSubstr("at least half the tip's"));
-  EXPECT_THAT(refusal(changed("value = 15", "value = 95")), HasSubstr("tip.half_angle_deg"));
+  EXPECT_THAT(refusal(changed("value = 15", "value = 95")),
+              HasSubstr("tip.half_angle_deg: half angle 95 deg is not within 0 deg to 74.5 deg"));
   EXPECT_THAT(refusal(changed("\"1 N/m\"", "\"1 mJ/m2\"")), HasSubstr("lever.normal_spring"));
   EXPECT_THAT(refusal(changed("law = \"area\"", "law = \"hope\"")),
               HasSubstr("hope is unknown; known are area, amontons"));

@@ -24,7 +24,7 @@ using std::chrono::microseconds;
 using std::chrono::steady_clock;
 
 constexpr int kKills = 1000;
-constexpr std::uint64_t kSeedsOfWriter = 1'000'000;  // more than one can use
+constexpr std::uint64_t kSeedsOfWriter = 1'000'000;  // more seeds than one writer can use
 constexpr std::uint64_t kSuccessor = (kKills + 1) * kSeedsOfWriter;
 
 // A number that is plausible in every field, and differs from word to word.

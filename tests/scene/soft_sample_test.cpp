@@ -93,7 +93,8 @@ TEST(SoftSample, IsRefusedWithTheReason) {
   EXPECT_THAT(refusal(changed("value = 0.7", "value = 1.7")), HasSubstr("pile_up_share"));
   EXPECT_THAT(refusal(changed("value = 0.38", "value = 0.7")), HasSubstr("sample_poisson_ratio"));
   EXPECT_THAT(refusal(changed("value = \"165 GPa\"", "value = \"0 GPa\"")), HasSubstr("tip_modulus"));
-  EXPECT_THAT(refusal(changed("value = 20,", "value = 80,")), HasSubstr("half_angle_deg"));
+  EXPECT_THAT(refusal(changed("value = 20,", "value = 80,")),
+              HasSubstr("half_angle_deg: half angle 80 deg is not within 4.58 deg"));
   EXPECT_THAT(refusal(changed("radius = { value = \"20 nm\"", "radius = { value = \"20 um\"")),
               HasSubstr("tip.radius"));
   EXPECT_THAT(refusal(changed("normal_spring = { value = \"1 N/m\"", "normal_spring = { value = \"0 N/m\"")),

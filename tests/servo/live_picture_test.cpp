@@ -191,13 +191,9 @@ TEST(LivePicture, IsRecordedAndDrawnAgainBitForBit) {
   for (const RecordedSession& session : pushed.recording.sessions) {
     expect_same(session);
     const std::string path = folder.file("level.afms");
-    ASSERT_TRUE(save_session(session, path));
+    const RecordedSession loaded = saved_and_replayed(session, path);
     EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x0e");
-    const auto loaded = load_session(path);
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded->particles->set, session.particles->set);
-    expect_same(*loaded);
-    const auto then = replay_particles(*loaded, session.samples.back().time_ns);
+    const auto then = replay_particles(loaded, session.samples.back().time_ns);
     ASSERT_TRUE(then) << then.error().message;
     ASSERT_TRUE(then->picture);
     EXPECT_EQ(then->picture->level, 2U);

@@ -12,6 +12,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "scene/shared/shared_segment.h"
 #include "servo/live_picture.h"
 #include "servo/replay.h"
+#include "servo/session_file.h"
 #include "support/paper_model.h"
 
 // Sessions for the tests of their replay.
@@ -240,6 +242,15 @@ inline void expect_same(const RecordedSession& session) {
   }
   EXPECT_FALSE(replayed->first_event);
   EXPECT_EQ(replayed->largest_hand_n, 0.0);
+}
+
+// Saves a session with particles, loads it again and replays it.
+inline RecordedSession saved_and_replayed(const RecordedSession& session, const std::string& path) {
+  EXPECT_TRUE(save_session(session, path));
+  RecordedSession loaded = load_session(path).value();
+  EXPECT_EQ(loaded.particles->set, session.particles->set);
+  expect_same(loaded);
+  return loaded;
 }
 
 }  // namespace afm::servo

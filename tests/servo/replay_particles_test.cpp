@@ -88,11 +88,7 @@ TEST(ReplayOfParticles, GivesEveryBitAgainOfSpheresThatStick) {
   expect_same(session);
   const support::ScratchFolder folder;
   const std::string path = folder.file("sticks.afms");
-  ASSERT_TRUE(save_session(session, path));
-  const auto loaded = load_session(path);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->particles->set, session.particles->set);
-  expect_same(*loaded);
+  saved_and_replayed(session, path);
 
   // a program that does not know adhesion refuses the version
   EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x09");
@@ -175,12 +171,8 @@ TEST(ReplayOfParticles, GivesEveryBitAgainOfASphereOnTheTip) {
 
   const support::ScratchFolder folder;
   const std::string path = folder.file("carried.afms");
-  ASSERT_TRUE(save_session(session, path));
+  saved_and_replayed(session, path);
   EXPECT_EQ(core::read_file(path)->substr(4, 1), "\x0c");
-  const auto loaded = load_session(path);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->particles->set, session.particles->set);
-  expect_same(*loaded);
 
   // pads alone need the version, and so does a tip that lifts
   RecordedSession other = session;

@@ -87,13 +87,8 @@ TEST(ReplayOfSettings, GivesEveryBitAgainAtAnotherLevel) {
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const RecordedSession& session = recording.sessions[i];
     EXPECT_EQ(session.particles->set.level.level, levels[i]);
-    const std::string path = folder.file("level.afms");
-    ASSERT_TRUE(save_session(session, path));
-    const auto loaded = load_session(path);
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded->particles->set, session.particles->set);
-    expect_same(*loaded);
-    const auto then = replay_particles(*loaded, session.samples.back().time_ns);
+    const RecordedSession loaded = saved_and_replayed(session, folder.file("level.afms"));
+    const auto then = replay_particles(loaded, session.samples.back().time_ns);
     ASSERT_TRUE(then) << then.error().message;
     EXPECT_EQ(then->picture.has_value(), levels[i] > 0);
     EXPECT_EQ(then->pages, shown[i]) << "session " << i;

@@ -52,7 +52,7 @@ TEST(Replay, TurnsTheSampleAgainAsTheWandTurnedIt) {
   RecordedSession session = recording.sessions.front();
   EXPECT_NE(session.samples.front().sample_normal, session.samples.back().sample_normal);
   expect_same(session);
-  session.wall.clear();  // leaves only the frames as a cause
+  session.wall.clear();  // no wall left: only the frames can be the cause
   EXPECT_FALSE(replay(session)->identical());
 }
 
@@ -181,7 +181,7 @@ TEST(Replay, ReproducesAForceThatTheWallRemoved) {
   recording.choose(test::kGold);
   recording.cycle();
   recording.arm();
-  recording.release(test::kGold);  // at the top
+  recording.release(test::kGold);  // release at the top
   recording.run(300);
   recording.arm();
   recording.aim(-0.010, 0.7);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "answers_second.h"
 #include "study/detection.h"
 #include "study/proportions.h"
 #include "study/threshold.h"

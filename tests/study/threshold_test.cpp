@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "answers_second.h"
 #include "study/threshold.h"
 
 namespace afm::study {
@@ -27,11 +28,6 @@ TEST(Threshold, IsWhatPerfectDataWereMadeOf) {
   EXPECT_NEAR(fit.weber_fraction.value, 0.1, 0.002);
   EXPECT_NEAR(fit.bias.value, 0.2, 0.02);
   EXPECT_LT(fit.weber_fraction.interval.high - fit.weber_fraction.interval.low, 0.015);
-}
-
-TEST(Threshold, OfAnObserverWithoutPreferenceIsTheLevelOfThreeInFour) {
-  const ThresholdTrial at{.level = 0.1, .second_stronger = true};
-  EXPECT_NEAR(answers_second_probability(at, 0.1, 2.0, 0.0), 0.75, kLapseRate);
 }
 
 TEST(Threshold, IsNotBoundedByTrialsThatSayNothing) {

@@ -64,7 +64,7 @@ class ForceVolume {
   struct Point {
     float height_m, force_n;
   };
-  using Branch = std::vector<Point>;  // by rising height
+  using Branch = std::vector<Point>;  // points by rising height
   using Cell = std::array<Branch, 2>;
 
   const Branch& branch_at(Way way, double across, double up) const;

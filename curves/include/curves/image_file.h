@@ -39,7 +39,7 @@ bool begins_like_image(std::string_view bytes);
 
 struct ImageReading {
   std::string channel;   // name in upper or lower case; empty: the first height channel, trace before retrace
-  bool confined = true;  // reads in a process that cannot open anything; false: in this process, for a fuzzer
+  bool confined = true;  // reading in a process that cannot open anything; false: in this process, for a fuzzer
 };
 
 struct UnreadChannel {

@@ -174,7 +174,6 @@ std::string_view note_value(std::string_view note, std::string_view key) {
 
 std::optional<double> note_number(std::string_view note, std::string_view key) {
   std::string_view text = note_value(note, key);
-  if (text.starts_with('+')) text.remove_prefix(1);
   if (text.empty()) return std::nullopt;
   const auto number = number_of(text);
   if (!number && has_decimal_comma(text)) throw CurveError(decimal_comma_in(fmt::format("{} in its note", key), text));

@@ -19,7 +19,7 @@ struct IgorWave {
   std::size_t rows = 0;     // length of the first dimension, which runs fastest
   std::size_t columns = 0;  // length of the second dimension
   std::size_t layers = 0;   // length of the third dimension; 0: a table
-  bool is_matrix = false;   // has one layer, without a label
+  bool is_matrix = false;   // one layer, without a label
   std::size_t number_size = 0;
   std::endian order = std::endian::little;
   std::array<double, 2> spacing{};  // sampling steps of the first two dimensions, in their units

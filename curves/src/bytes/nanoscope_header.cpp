@@ -13,6 +13,7 @@
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "curves/recorded_curve.h"
+#include "physics/quantity_text.h"
 
 namespace afm::curves {
 
@@ -100,10 +101,9 @@ std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks) {
 
 std::optional<double> take_number(std::string_view& text) {
   text = trimmed(text);
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
-  const std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
+  std::string_view rest = text;
+  const auto number = take_decimal(rest);
+  if (!number) return std::nullopt;
   if (rest.starts_with(',') && has_decimal_comma(text.substr(0, text.size() - rest.size() + 2)))
     throw CurveError(decimal_comma_in("a number of its header", text));
   text = rest;
@@ -119,6 +119,28 @@ double nanoscope_number(const NanoscopeBlock& block, const std::string& key) {
   return *number;
 }
 
+double nanoscope_spring_constant(const NanoscopeBlock& channel) {
+  constexpr const char* kKey = "spring constant";
+  const double k_n_per_m = nanoscope_number(channel, kKey);
+  std::string_view unit = *channel.find(kKey);
+  take_number(unit);
+  unit = trimmed(unit);
+  if (unit.empty()) return k_n_per_m;
+  const auto parsed = physics::parse_quantity(fmt::format("{}{}", k_n_per_m, unit), physics::kStiffnessUnits);
+  if (parsed.value) return parsed.value->si;
+  throw CurveError(fmt::format("its spring constant is in \"{}\", not in N/m", unit.substr(0, 40)));
+}
+
+std::size_t nanoscope_data_offset(const NanoscopeBlock& channel, std::string_view bytes) {
+  const double offset = nanoscope_number(channel, "data offset");
+  if (offset > static_cast<double>(bytes.size())) throw CutShort();
+  const std::size_t end = bytes.substr(0, kMostHeaderBytes).find(kHeaderEnd);
+  if (!(offset >= 0.0) || (end != std::string_view::npos && offset < static_cast<double>(end))) {
+    throw CurveError(fmt::format("its data begin at byte {:g}, within its header: was the header altered?", offset));
+  }
+  return static_cast<std::size_t>(offset);
+}
+
 std::optional<HardScale> hard_scale(const std::string_view* text) {
   if (text == nullptr || !text->starts_with('V')) return std::nullopt;
   std::string_view rest = text->substr(1);
@@ -126,6 +148,7 @@ std::optional<HardScale> hard_scale(const std::string_view* text) {
   scale.soft_name = take_between('[', ']', rest);
   std::string_view per_lsb = take_between('(', ')', rest);
   scale.per_lsb = take_number(per_lsb);
+  scale.per_lsb_unit = trimmed(per_lsb.substr(0, per_lsb.rfind('/')));
   scale.value = take_number(rest);
   scale.unit = trimmed(rest);
   return scale;
@@ -158,6 +181,12 @@ std::optional<SoftScale> soft_scale(const std::vector<NanoscopeBlock>& blocks, s
     const auto number = take_number(rest);
     if (!number) continue;
     rest = trimmed(rest);
+    const std::size_t stroke = rest.rfind('/');
+    const ScaledUnit below = scaled_unit(stroke == std::string_view::npos ? "" : rest.substr(stroke + 1));
+    if (below.factor != 1.0 && (below.unit == "V" || below.unit == scaled_unit(per).unit)) {
+      const ScaledUnit above = scaled_unit(rest.substr(0, stroke));
+      return SoftScale{*number * above.factor / below.factor, above.unit};
+    }
     for (const std::string_view divisor : {std::string_view("V"), per}) {
       if (rest.size() <= divisor.size() || !rest.ends_with(divisor)) continue;
       if (rest[rest.size() - divisor.size() - 1] == '/') rest.remove_suffix(divisor.size() + 1);
@@ -175,9 +204,11 @@ double nanoscope_value_per_integer(const NanoscopeBlock& channel, std::size_t in
   }
   constexpr double kRounding = 0.01;
   const double unit = scaled_unit(scale->unit).factor;
-  const double of_range = scale->value.value_or(0.0) / std::pow(256.0, static_cast<double>(integer_size));
-  if (!scale->per_lsb) return unit * of_range;
-  return unit * (std::abs(of_range / *scale->per_lsb - 1.0) < kRounding ? of_range : *scale->per_lsb);
+  const double of_range = unit * scale->value.value_or(0.0) / std::pow(256.0, static_cast<double>(integer_size));
+  if (!scale->per_lsb) return of_range;
+  const double per_lsb =
+      (scale->per_lsb_unit.empty() ? unit : scaled_unit(scale->per_lsb_unit).factor) * *scale->per_lsb;
+  return std::abs(of_range / per_lsb - 1.0) < kRounding ? of_range : per_lsb;
 }
 
 std::optional<double> nanoscope_metres_per_volt(const std::vector<NanoscopeBlock>& blocks, std::string_view name) {

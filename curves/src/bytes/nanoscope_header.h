@@ -47,6 +47,13 @@ NanoscopeTime nanoscope_time(std::string_view text);
 // The number at the front of a value. Throws CurveError if there is none.
 double nanoscope_number(const NanoscopeBlock& block, const std::string& key);
 
+// In N/m, the unit that Nanoscope leaves out; other programs may write another one. Throws CurveError for one that is
+// none of a spring constant.
+double nanoscope_spring_constant(const NanoscopeBlock& channel);
+
+// First byte of a channel's data. Throws CurveError if it is none of the file behind the header.
+std::size_t nanoscope_data_offset(const NanoscopeBlock& channel, std::string_view bytes);
+
 // Takes the number at the front of the text.
 std::optional<double> take_number(std::string_view& text);
 
@@ -54,6 +61,7 @@ std::optional<double> take_number(std::string_view& text);
 struct HardScale {
   std::string_view soft_name;  // "Sens. Zsens", or empty
   std::optional<double> per_lsb;
+  std::string_view per_lsb_unit;  // empty if the bracket has none
   std::optional<double> value;
   std::string_view unit;
 };

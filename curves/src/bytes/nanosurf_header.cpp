@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <system_error>
 
 #include "bytes/file_bytes.h"
 #include "bytes/text_table.h"
@@ -69,9 +67,8 @@ std::optional<double> NanosurfSection::number(std::string_view key) const {
   const auto found = text(key);
   if (!found) return std::nullopt;
   if (has_decimal_comma(*found)) throw CurveError(decimal_comma_in(fmt::format("its \"{}\"", key), *found));
-  double value = 0;
-  const auto [end, error] = std::from_chars(found->data(), found->data() + found->size(), value);
-  return error == std::errc() && std::isfinite(value) ? std::optional(value) : std::nullopt;
+  std::string_view rest = *found;
+  return take_decimal(rest);
 }
 
 double NanosurfSection::needed(std::string_view key) const {

@@ -85,11 +85,22 @@ std::string_view base_unit(const TableColumn& column) {
   return {};
 }
 
-// Returns whether the words above a column name another unit in their brackets, "Height (um)".
-bool names_another_unit(std::string_view words, const TableColumn& column) {
+// The unit in the words above a column, "Height (um)", "Height / um", "height_um", or what is where one would be.
+std::string_view unit_in(std::string_view words) {
   const std::size_t open = words.find_last_of("(["), close = words.find_last_of(")]");
-  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return false;
-  const ScaledUnit unit = scaled_unit(words.substr(open + 1, close - open - 1));
+  if (open != std::string_view::npos && close != std::string_view::npos && close > open) {
+    return words.substr(open + 1, close - open - 1);
+  }
+  const std::size_t mark = words.find_last_of("/,:;_ ");
+  if (mark == std::string_view::npos) return {};
+  const std::string_view last = words.substr(mark + 1);
+  const bool follows_stroke = words.substr(0, mark + 1).find_last_not_of(' ') == words.substr(0, mark + 1).rfind('/');
+  return last.size() > 1 || follows_stroke ? last : std::string_view();  // "column V" may be one of many
+}
+
+// Returns whether the words above a column name another unit.
+bool names_another_unit(std::string_view words, const TableColumn& column) {
+  const ScaledUnit unit = scaled_unit(unit_in(trimmed(words)));
   if (base_unit(column).empty() || (unit.unit != "m" && unit.unit != "N" && unit.unit != "V" && unit.unit != "s")) {
     return false;
   }
@@ -123,7 +134,7 @@ class TableReader {
       throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
                                    trimmed(fields_[bad]).substr(0, 40)));
     }
-    if (separator_ == ',' && more_fields_at_ == 0 && has_more_fields()) {
+    if (more_fields_at_ == 0 && has_more_fields()) {
       more_fields_at_ = number;
       most_fields_ = fields_.size();
     }
@@ -150,8 +161,13 @@ class TableReader {
   void finish() {
     leave_out_counts();
     if (padding_ > 0) remarks_.push_back(fmt::format("its last {} lines have no numbers: they are left out", padding_));
+    if (more_fields_at_ == 0) return;
     // "0,5,1,2" has two numbers with decimal commas, or four
-    if (more_fields_at_ == 0 || points_) return;
+    if (separator_ != ',' || points_) {
+      remarks_.push_back(fmt::format("line {} has {} columns, and --columns names {}: those behind them are not read",
+                                     more_fields_at_, most_fields_, columns_.size()));
+      return;
+    }
     throw CurveError(
         fmt::format("line {} has {} fields between commas, and --columns names {}: are they decimal commas? Write - "
                     "for each field that is not read, or separate the columns by tabs or semicolons",

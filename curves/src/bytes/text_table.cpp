@@ -57,11 +57,21 @@ std::string decimal_comma_in(std::string_view name, std::string_view text) {
                      core::printable_line(text.substr(0, 40)));
 }
 
+std::optional<double> take_decimal(std::string_view& text) {
+  std::string_view digits = text;
+  if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  text = digits.substr(static_cast<std::size_t>(end - digits.data()));
+  return value;
+}
+
 double number_in(std::string_view field, std::string_view column, const Lines& lines) {
   field = trimmed(field);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+  std::string_view rest = field;
+  const auto value = take_decimal(rest);
+  if (!value || !rest.empty()) {
     if (lines.is_open())
       throw CutShort(fmt::format("its last line has \"{}\" as {}", core::printable_line(field), column));
     const std::string place = lines.number() == 0 ? std::string() : fmt::format("line {}: ", lines.number());
@@ -69,7 +79,7 @@ double number_in(std::string_view field, std::string_view column, const Lines& l
     throw CurveError(
         fmt::format("{}{} is \"{}\", not a finite number", place, column, core::printable_line(field.substr(0, 40))));
   }
-  return value;
+  return *value;
 }
 
 std::size_t column_in(const std::vector<std::string_view>& heading, std::string_view name) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,10 @@ bool has_decimal_comma(std::string_view text);
 // Sentence on a number with a decimal comma, which is refused: its digits behind the comma would be lost, or be another
 // number.
 std::string decimal_comma_in(std::string_view name, std::string_view text);
+
+// Takes the number at the front of the text, with the sign + that other programs write, or without. Empty if there is
+// none or it is no finite one: the text is then unchanged.
+std::optional<double> take_decimal(std::string_view& text);
 
 // A finite decimal number that fills the whole field except for blanks. Throws CurveError with the place; line 0: none.
 double number_in(std::string_view field, std::string_view column, const Lines& lines);

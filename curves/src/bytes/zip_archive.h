@@ -73,7 +73,7 @@ class ZipArchive {
   unsigned begin_shift_ = 0;             // bits of a hash that do not count there
   mutable Inflater inflater_;
   bool in_order_ = false;          // entries may be looked for where the last one was found
-  mutable Place last_{}, next_{};  // found last, and behind it
+  mutable Place last_{}, next_{};  // place found last, and the one behind it
 };
 
 }  // namespace afm::curves

@@ -63,7 +63,7 @@ class ArdfCurves {
   std::uint64_t columns_ = 0, rows_ = 0;
   double step_x_m_ = 0, step_y_m_ = 0;  // 0: unknown
   std::size_t volumes_ = 0;
-  std::vector<Set> sets_;  // by line and point
+  std::vector<Set> sets_;  // sets by line and point
   bool is_cut_ = false;    // others are missing
 };
 

@@ -149,8 +149,11 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   CurveMetadata& made = curve.metadata;
   double factor = 1.0;
   const auto replace = [&](const auto& given, const auto& own, const char* name) {
-    if (given && own) factor *= *given / *own;
-    if (given && !own) {
+    if (!given) return;
+    const double ratio = own ? *given / *own : 0.0;
+    const bool known = own && std::isfinite(ratio);  // some programs write 0 for none
+    if (known) factor *= ratio;
+    if (!known) {
       made.remarks.push_back(fmt::format(
           "its forces are in newtons, and it does not say with which {} they were made: they do not change", name));
     }

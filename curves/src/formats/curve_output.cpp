@@ -278,7 +278,7 @@ SvgPlot curve_plot(const CurveRun& run) {
   for (const auto& sample : run.curve.samples) {
     const bool approaching = sample.branch == physics::Branch::Approach;
     if (!approaching && retract.points.empty() && !approach.points.empty()) {
-      retract.points.push_back(approach.points.back());  // both branches share the turning point
+      retract.points.push_back(approach.points.back());  // turning point, shared by both branches
     }
     (approaching ? approach : retract).points.push_back({sample.z.si * kNmPerM, sample.force.si * kNnPerN});
   }

@@ -42,7 +42,7 @@ struct FormatTable {
   std::string_view (*other_kind_of)(std::string_view bytes);  // kind of a file that another table has, or empty
   const char* files;                                          // all formats, as refusals list them
   std::size_t longest_beginning;                              // bytes that `begins` needs
-  std::array<Row, Count> rows;                                // the first whose `begins` holds has the file
+  std::array<Row, Count> rows;  // rows by precedence: a file belongs to the first whose `begins` is true
 
   // True if `files` names those of every row.
   constexpr bool names_all() const {

@@ -197,6 +197,11 @@ RecordedCurve read_igor(std::string_view bytes, const CurveReading& reading) {
     curve.points.push_back({physics::Length(z), physics::Force(deflection.newton_per_unit * signal)});
   }
   if (curve.points.empty()) return curve;
+  // some waves are filled up at their end
+  if (const std::size_t recorded = rows.back() + 1; rows.size() < recorded) {
+    curve.metadata.remarks.push_back(
+        fmt::format("{} of its {} points were not recorded: they are left out", recorded - rows.size(), recorded));
+  }
   const std::vector<Section> sections = sections_of(wave);
   turn_at_deepest(curve);
   // the note gives the turn of the stage, which the tip's height follows a few points later

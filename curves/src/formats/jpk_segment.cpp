@@ -205,6 +205,7 @@ std::vector<JpkSegment::Linear> JpkSegment::conversions(const std::string& prefi
       slot = base;
     } else if (properties_.text(conversion + ".defined") == "true") {
       steps.push_back(linear_at(conversion + ".scaling"));
+      if (steps.back().multiplier == 0.0) throw CurveError(uncalibrated(prefix, slot, reading));
       slot = properties_.text(conversion + ".base-calibration-slot").value_or(base);
     } else {
       throw CurveError(uncalibrated(prefix, slot, reading));
@@ -216,7 +217,8 @@ std::vector<JpkSegment::Linear> JpkSegment::conversions(const std::string& prefi
 std::string JpkSegment::uncalibrated(const std::string& prefix, const std::string& slot,
                                      const CurveReading& reading) const {
   if (slot != "force" && slot != "distance") return fmt::format("it does not say how to convert to \"{}\"", slot);
-  const bool no_sensitivity = !reading.sensitivity_m_per_v && properties_.text(prefix + ".distance.defined") != "true";
+  const bool no_sensitivity =
+      slot == "distance" || (!reading.sensitivity_m_per_v && properties_.text(prefix + ".distance.defined") != "true");
   return fmt::format("its lever is not calibrated; give {}{}", slot == "force" ? "--spring-constant" : "",
                      !no_sensitivity   ? ""
                      : slot == "force" ? " and --sensitivity"

@@ -60,8 +60,8 @@ double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& 
   const std::string_view sensitivity = scale && !scale->soft_name.empty() ? scale->soft_name : "Sens. DeflSens";
   metadata.sensitivity_m_per_v = nanoscope_metres_per_volt(blocks, sensitivity);
   if (deflection.find("spring constant") != nullptr) {
-    const double k = nanoscope_number(deflection, "spring constant");
-    if (k != 0.0) metadata.spring_constant = physics::Stiffness(k);
+    if (const double k = nanoscope_spring_constant(deflection); k != 0.0)
+      metadata.spring_constant = physics::Stiffness(k);
   }
   if (!metadata.sensitivity_m_per_v) metadata.sensitivity_m_per_v = reading.sensitivity_m_per_v;
   if (!metadata.spring_constant) metadata.spring_constant = reading.spring_constant;
@@ -226,7 +226,7 @@ void NanoscopeCurves::count_whole() {
     const auto layout = channel != nullptr ? layout_of(*channel) : std::nullopt;
     if (!layout) continue;
     const double offset = nanoscope_number(*channel, "data offset"), size = static_cast<double>(bytes_.size());
-    const double behind = offset >= 0.0 ? std::max(size - offset, 0.0) : 0.0;
+    const double behind = offset < size ? size - static_cast<double>(nanoscope_data_offset(*channel, bytes_)) : 0.0;
     const double there = std::floor(behind / static_cast<double>(layout->points * layout->size));
     if (there < static_cast<double>(whole_)) whole_ = static_cast<std::size_t>(there);
   }
@@ -271,7 +271,7 @@ NanoscopeCurves::Signal NanoscopeCurves::signal(const NanoscopeBlock& channel, s
   const std::size_t size = layout.size, points = layout.points;
   const std::size_t half = lengths_.longer();
   if (index >= whole_) throw CutShort(whole_of_all());
-  const auto offset = static_cast<std::size_t>(nanoscope_number(channel, "data offset"));
+  const std::size_t offset = nanoscope_data_offset(channel, bytes_);
   const std::string_view data = part(bytes_, offset + index * points * size, 2 * half * size);
   const double lowest = -0.5 * std::pow(256.0, static_cast<double>(size));
   const double lowest_of_two = has_two_bytes(channel) ? std::numeric_limits<std::int16_t>::min() : lowest;

@@ -98,13 +98,12 @@ std::vector<double> heights_of(std::string_view bytes, const NanoscopeBlock& ima
   if (scale.unit != "m") throw CurveError(fmt::format("it is in \"{}\"", scale.unit.substr(0, 40)));
   const NanoscopeIntegers integers = nanoscope_integers(image, blocks);
   const std::size_t count = points.columns * points.rows, size = count * integers.size;
-  const double offset = nanoscope_number(image, "data offset"), length = nanoscope_number(image, "data length");
+  const double length = nanoscope_number(image, "data length");
   if (length != static_cast<double>(size)) {
     throw CurveError(
         fmt::format("its data have {:g} bytes; {} x {} points take {}", length, points.columns, points.rows, size));
   }
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort();
-  const std::string_view data = part(bytes, static_cast<std::size_t>(offset), size);
+  const std::string_view data = part(bytes, nanoscope_data_offset(image, bytes), size);
   std::vector<double> values;
   values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -173,6 +172,9 @@ NanoscopeScale nanoscope_scale(const NanoscopeBlock& image, const Blocks& blocks
   const ScaledUnit hard_unit = scaled_unit(hard->unit);
   const auto soft = hard->soft_name.empty() ? std::nullopt : soft_scale(blocks, hard->soft_name, hard->unit);
   if (!soft) return {*hard->value * hard_unit.factor, hard_unit.unit};
+  if (soft->factor == 0.0) {
+    throw CurveError(fmt::format("its \"{}\" is 0, so that its values are unknown", hard->soft_name.substr(0, 40)));
+  }
   return {*hard->value * hard_unit.factor * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit};
 }
 

@@ -53,6 +53,7 @@ void add_parameter(std::string_view line, CurveMetadata& metadata) {
 
 std::optional<double> number_of(std::string_view value) {
   double number = 0.0;
+  if (value.starts_with('+') && !value.starts_with("+-")) value.remove_prefix(1);
   const char* const begin = value.data();
   const char* const end = begin + value.size();
   const auto read = std::from_chars(begin, end, number);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -146,9 +145,7 @@ std::string_view with_decimal_points(std::string_view line, std::string& row) {
 
 bool is_decimal(std::string_view field) {
   field = trimmed(field);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  return error == std::errc() && end == field.data() + field.size();
+  return take_decimal(field) && field.empty();
 }
 
 bool is_comment(std::string_view line) { return line.starts_with('#') || line.starts_with('%'); }

@@ -50,13 +50,15 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
     if (line.starts_with('#')) read_comment(line, lines, curve.metadata, samples);
 
   std::vector<std::string_view> names, fields;
-  split(line, ',', names);
+  split(trimmed(line), ',', names);
+  for (std::string_view& name : names) name = trimmed(name);
   const std::size_t z = column_in(names, "z_m"), force = column_in(names, "force_N"),
                     branch = column_in(names, "branch");
   while (lines.next(line)) {
     if (trimmed(line).empty()) continue;
     split(line, ',', fields);
     if (fields.size() != names.size()) refuse_fields(lines, fields.size(), names.size());
+    fields[branch] = trimmed(fields[branch]);
     if (fields[branch].empty()) continue;  // a session's way to the cycle, or back
     if (fields[branch] != "approach" && fields[branch] != "retract") {
       if (lines.is_open()) throw CutShort("its last line is not whole");

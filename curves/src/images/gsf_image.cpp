@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "bytes/file_bytes.h"
@@ -19,22 +20,26 @@ constexpr std::size_t kMostGsfHeaderBytes = std::size_t{1} << 20U;
 
 struct GsfHeader {
   double columns = 0, rows = 0;
-  double width = 1, height = 1, x_offset = 0, y_offset = 0;  // in xy_unit
+  std::optional<double> width, height;  // in xy_unit
+  double x_offset = 0, y_offset = 0;    // the same
   ScaledUnit xy_unit, z_unit;
   std::string title = "Height";
 };
 
 // Returns false for an unknown name.
 bool set_field(std::string_view name, std::string_view value, const Lines& lines, GsfHeader& header) {
-  constexpr std::pair<std::string_view, double GsfHeader::*> kNumbers[]{
-      {"XRes", &GsfHeader::columns}, {"YRes", &GsfHeader::rows},        {"XReal", &GsfHeader::width},
-      {"YReal", &GsfHeader::height}, {"XOffset", &GsfHeader::x_offset}, {"YOffset", &GsfHeader::y_offset}};
+  constexpr std::pair<std::string_view, double GsfHeader::*> kNumbers[]{{"XRes", &GsfHeader::columns},
+                                                                        {"YRes", &GsfHeader::rows},
+                                                                        {"XOffset", &GsfHeader::x_offset},
+                                                                        {"YOffset", &GsfHeader::y_offset}};
   for (const auto& [known, field] : kNumbers) {
     if (name != known) continue;
     header.*field = number_in(value, name, lines);
     return true;
   }
-  if (name == "XYUnits") {
+  if (name == "XReal" || name == "YReal") {
+    (name == "XReal" ? header.width : header.height) = number_in(value, name, lines);
+  } else if (name == "XYUnits") {
     header.xy_unit = scaled_unit(value);
   } else if (name == "ZUnits") {
     header.z_unit = scaled_unit(value);
@@ -75,13 +80,21 @@ ImagePages read_gsf(std::string_view bytes) {
   const std::string_view numbers = part(bytes, data, columns * rows * sizeof(float));
   if (data + numbers.size() != bytes.size()) throw CurveError("it is longer than its XRes and YRes say");
   found.remark_if_without(header.xy_unit);
+  constexpr double kUnknownSide = 1.0;  // the format's rule
+  if (!header.width || !header.height) {
+    found.remark(fmt::format("it does not name {}, which is taken as {:g} m: set its size in the program that wrote it",
+                             header.width    ? "its height (YReal)"
+                             : header.height ? "its width (XReal)"
+                                             : "its size (XReal, YReal)",
+                             kUnknownSide * header.xy_unit.factor));
+  }
   const double z = header.z_unit.factor;
   found.pages.push_back({.name = header.title,
                          .unit = header.z_unit.unit,
                          .columns = columns,
                          .rows = rows,
-                         .width_m = image_length_m(header.width, header.xy_unit),
-                         .height_m = image_length_m(header.height, header.xy_unit),
+                         .width_m = image_length_m(header.width.value_or(kUnknownSide), header.xy_unit),
+                         .height_m = image_length_m(header.height.value_or(kUnknownSide), header.xy_unit),
                          .x_offset_m = header.x_offset * header.xy_unit.factor,
                          .y_offset_m = header.y_offset * header.xy_unit.factor,
                          .values = [=] {

@@ -146,6 +146,9 @@ std::size_t chosen_page(const ImagePages& image, const std::string& wanted) {
 // False for NaN and infinity.
 bool is_measured(double value) { return std::abs(value) <= physics::kMostImageValue; }
 
+// Higher than any microscope measures: numbers of another byte order or unit.
+bool is_impossible_height(double value_m) { return is_measured(value_m) && std::abs(value_m) > kLongestSideM; }
+
 bool same_grid(const ImagePage& a, const ImagePage& b) {
   return a.columns == b.columns && a.rows == b.rows && a.width_m == b.width_m && a.height_m == b.height_m;
 }
@@ -189,7 +192,14 @@ LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat f
     }
     try {
       image.channels.emplace_back(page.name, page.unit, values_of(page));
-      if (i == chosen) loaded.chosen = image.channels.size() - 1;
+      if (i != chosen) continue;
+      loaded.chosen = image.channels.size() - 1;
+      const std::vector<double>& values = image.channels.back().values;
+      const auto odd = std::find_if(values.begin(), values.end(), is_impossible_height);
+      if (page.unit == "m" && odd != values.end()) {
+        found.remark(fmt::format(
+            "a height of {:.3g} m is none of a microscope: is its unit or the order of its bytes another?", *odd));
+      }
     } catch (const CutShort&) {
       throw;
     } catch (const CurveError& fault) {

@@ -50,15 +50,14 @@ Captured captured_lines(const NanoscopeBlock& image, const NanoscopePoints& poin
 // The bytes of the captured lines, which a file may have alone.
 std::string_view data_of(std::string_view bytes, const NanoscopeBlock& image, const NanoscopePoints& points,
                          std::size_t number_size, const Captured& captured) {
-  const double offset = nanoscope_number(image, "data offset"), length = nanoscope_number(image, "data length");
+  const double length = nanoscope_number(image, "data length");
   const std::size_t line = points.columns * number_size, whole = points.rows * line;
   const bool alone = length == static_cast<double>(captured.count * line);
   if (!alone && length != static_cast<double>(whole)) {
     throw CurveError(
         fmt::format("its data have {:g} bytes; {} x {} points take {}", length, points.columns, points.rows, whole));
   }
-  if (!(offset >= 0.0 && offset <= static_cast<double>(bytes.size()))) throw CutShort();
-  const std::string_view data = part(bytes, static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
+  const std::string_view data = part(bytes, nanoscope_data_offset(image, bytes), static_cast<std::size_t>(length));
   return part(data, alone ? 0 : captured.first * line, captured.count * line);
 }
 

@@ -126,19 +126,6 @@ glm::vec3 curve_color(std::size_t material) {
   return kColors[material % kColors.size()];
 }
 
-core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall) {
-  std::array<scene::EyeView, 2> eyes;
-  const scene::Viewer& viewer = wall.viewers.front();
-  for (std::size_t i = 0; i < eyes.size(); ++i) {
-    const auto view = scene::off_axis_view(wall.screens.front(),
-                                           scene::eye_position(viewer.sweet_spot, scene::kEyes[i], viewer.ipd_m),
-                                           scene::DepthConvention::VulkanReversedInfinite, scene::kNearM, 0.0);
-    if (!view) return tl::unexpected(view.error());
-    eyes[i] = *view;
-  }
-  return eyes;
-}
-
 Phrase stage_of_cycle(const Moment& moment, double z_jtc_m) {
   using enum Phrase;
   if (moment.phase == physics::Phase::WaitForLift) return StageLift;

@@ -63,8 +63,8 @@ class SimulatedHand {
   void lift() { go(at_m_, high_m_, kWayMPerS); }
 
   const scene::ParticleSet& set() const { return set_; }
-  const std::vector<scene::ParticlePage>& pages() const { return pages_; }  // newest
-  const scene::TipPush& push() const { return push_; }                      // newest
+  const std::vector<scene::ParticlePage>& pages() const { return pages_; }  // newest pages
+  const scene::TipPush& push() const { return push_; }                      // newest push
   double m_per_m() const { return m_per_m_; }                               // scale of the hand
   double high_m() const { return high_m_; }                                 // height above everything
   const glm::dvec2& at_m() const { return at_m_; }                          // intended place of the hand
@@ -81,7 +81,7 @@ class SimulatedHand {
   const scene::ParticleSet& set_;
   std::unique_ptr<SimulatedServo> servo_;
   std::vector<scene::ParticlePage> pages_;
-  std::vector<scene::MarkTile> tiles_;  // newest
+  std::vector<scene::MarkTile> tiles_;  // newest tiles
   scene::TipPush push_;
   physics::NormalGenerator normal_;
   double m_per_m_ = 0, high_m_ = 0;

@@ -102,19 +102,6 @@ void QuestStaircase::answer(bool right) {
   level_ = std::clamp(quantile(), rule_.least, rule_.most);
 }
 
-double QuestStaircase::mean() const {
-  double sum = 0, weighted = 0;
-  for (std::size_t i = 0; i < density_.size(); ++i) {
-    sum += density_[i];
-    weighted += density_[i] * at(i);
-  }
-  return weighted / sum;
-}
-
-double QuestStaircase::mode() const {
-  return at(static_cast<std::size_t>(std::max_element(density_.begin(), density_.end()) - density_.begin()));
-}
-
 double QuestStaircase::quantile() const {
   double sum = 0;
   for (const double density : density_) sum += density;
@@ -145,7 +132,7 @@ std::unique_ptr<Staircase> make_staircase(const ThresholdPlan& plan) {
       return std::make_unique<QuestStaircase>(QuestStaircase::Rule{
           .guess = start, .guess_sd = 0.5, .share = 0.75, .range = 4.0, .least = least, .most = most});
   }
-  constexpr double kKaernbach = 3;  // converges to 75 % right answers, the criterion of the 7 % threshold for forces
+  constexpr double kKaernbach = 3;  // ratio for 75 % right answers, the criterion of the 7 % threshold for forces
   return std::make_unique<WeightedStaircase>(
       start, WeightedStaircase::Rule{.step = step, .weight = kKaernbach, .least = least, .most = most});
 }

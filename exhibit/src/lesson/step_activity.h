@@ -24,7 +24,7 @@ namespace afm::exhibit {
 // Inputs of a step. All must outlive the step.
 struct StepContext {
   const LessonStep& step;
-  const scene::ParticleSet* particles;           // the lesson's; null: none
+  const scene::ParticleSet* particles;           // particles of the lesson; null: none
   std::span<const curves::SampleModel> samples;  // samples of the lesson
   const Phrases& phrases;
   LessonRandom& random;

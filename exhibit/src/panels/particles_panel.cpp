@@ -232,7 +232,7 @@ class ParticleRows {
     if (physics::turns_flat(kind)) return;  // measured alone
     const ParticleLaw other = scene::other_law(kind.law);
     const Force other_threshold = physics::sliding_threshold(kind, other, Force(0.0));
-    if (!(other_threshold.si > 0.0)) return;  // the file lacks its parameters
+    if (!(other_threshold.si > 0.0)) return;  // file without the parameters
     add_sourced(Phrase::PushOtherLaw, "(" + force_text(other_threshold, phrases_) + ")",
                 phrases_.text<Phrase::PushLawUnused>(formula_of(other, phrases_)));
   }

@@ -19,8 +19,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kColouredShare =
-    0.998;  // share of the map's width that is coloured: no edge beyond that of the sample
+constexpr double kColouredShare = 0.998;  // coloured share of the map's width, within the edge of the sample
 
 // Place of a vertex along a side, -0.5 to 0.5.
 double vertex_middle(std::size_t cell) { return (static_cast<double>(cell) + 0.5) / kReliefSide - 0.5; }

@@ -155,7 +155,7 @@ std::optional<std::string> PushPlanner::point(const input::Ray& ray, const Parti
     return plan_.particle == static_cast<std::int32_t>(numbers[*sphere]) ? end() : choose(numbers[*sphere], now);
   }
   const glm::dvec2 met_m(ray.origin_m - ray.origin_m.z / ray.direction.z * ray.direction);
-  const auto is_on_sample = [&](double coordinate_m) { return std::abs(coordinate_m) <= half_side_m_; };  // NaN is not
+  const auto is_on_sample = [&](double coordinate_m) { return std::abs(coordinate_m) <= half_side_m_; };  // NaN: false
   const bool met = ray.origin_m.z > 0.0 && ray.direction.z < 0.0 && is_on_sample(met_m.x) && is_on_sample(met_m.y);
   if (!met) return std::nullopt;
   if (plan_.particle == scene::kNoParticle) return "plan: point at a sphere first";

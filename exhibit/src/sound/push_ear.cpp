@@ -47,7 +47,7 @@ PushEar::Astray PushEar::add(const scene::TipSample& sample) {
   push_.force_n = force_n;
   const bool between = pushed.state == physics::PushState::Rolls && std::fmod(way_m_, kPulseM) > 0.5 * kPulseM;
   if (between || pushed.state == physics::PushState::Holds) push_.pulse = kQuietPulse;
-  if (!(pushed.normal_n > 0.0)) return Astray::No;  // it is dragged, or there is no particle
+  if (!(pushed.normal_n > 0.0)) return Astray::No;  // dragged particle, or none
   const glm::dvec2 to_particle = -lateral_n / force_n;
   push_.side = std::clamp(heading_.y * to_particle.x - heading_.x * to_particle.y, -1.0, 1.0);
   const double off = std::abs(push_.side);

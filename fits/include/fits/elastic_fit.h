@@ -115,7 +115,7 @@ struct Adhesion {
 struct Bootstrap {
   Interval modulus_pa{};     // Young's modulus
   Interval work_j_per_m2{};  // work of adhesion, with such a law
-  std::size_t fits = 0;      // fits that had an end
+  std::size_t fits = 0;      // number of fits that ended
   std::size_t block = 0;     // samples in a block
 };
 

@@ -11,7 +11,7 @@ namespace afm::fits {
 
 // Inputs of a fit that may be wrong.
 enum class Given {
-  SpringConstant,  // forces scale with it
+  SpringConstant,  // scale of all forces
   Sensitivity,     // the optical lever's; the spring constant is that of a thermal tune with it, k ~ 1/sensitivity^2
   Radius,
   HalfAngle,

@@ -50,7 +50,7 @@ core::Result<std::shared_ptr<const physics::LawTables>> build_tables(
 struct ScanFeedback {
   bool on = false;
   double gain_per_s = 0;
-  double elapsed_s = 0;       // since the previous step
+  double elapsed_s = 0;       // time since the previous step
   bool without_force = true;  // a step would not be felt
 };
 

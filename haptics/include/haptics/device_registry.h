@@ -14,6 +14,7 @@
 #include "core/result.h"
 #include "haptics/device.h"
 #include "haptics/hand_controls.h"
+#include "haptics/haptic_ports.h"
 #include "haptics/release_path.h"
 
 // Haptic devices that TouchAFM supports, their names, and how to set them up.
@@ -74,6 +75,8 @@ struct DeviceKind {
   HandControls controls;     // names of its controls on the wall
   std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
   std::string_view proof;    // substitute for hardware in the tests of its driver; empty: none
+  std::string_view models;   // lower-case words of makers and models, which a fault report keeps in a device's name
+  std::span<const KnownPort> ports;  // its devices as the system lists them; empty: its service or library finds them
 
   // Both functions log what they tried, the device itself last.
   core::Result<std::unique_ptr<HapticDevice>> (*open)(const DeviceRequest& request, ProbeLog& log);

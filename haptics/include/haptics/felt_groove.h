@@ -56,7 +56,6 @@ class FeltGroove {
 
   const glm::dvec2& force_n() const noexcept { return pull_.force_n; }  // in the newest step, zero after drop()
   double half_width_m() const noexcept { return half_width_m_; }        // w, in the hand
-  double depth_j() const noexcept { return depth_j_; }                  // U_0
 
  private:
   // In metres of the hand.

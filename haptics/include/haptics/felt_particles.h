@@ -217,7 +217,7 @@ class ParticleSwap {
   std::unique_ptr<Built> used_, ready_;  // the servo's; null: none
   std::atomic<Built*> offered_{nullptr};
   std::atomic<Built*> retired_{nullptr};
-  scene::PushSettings built_{};  // the builder's: in full
+  scene::PushSettings built_{};  // complete settings, for the builder's thread
 };
 
 }  // namespace afm::haptics

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,16 +10,25 @@ namespace afm::haptics {
 
 enum class HapticBus { Serial, Hid, Usb };
 
+// Port of a known device: a row of its kind (DeviceKind::ports).
+struct KnownPort {
+  HapticBus bus;
+  unsigned vendor;                  // vendor's USB number
+  std::optional<unsigned> product;  // any if empty
+  const char* device;
+  const char* udev_rule;  // row of assets/haptics/70-touchafm-haptics.rules
+};
+
 struct HapticPort {
   std::string path;    // in /dev
   std::string device;  // "Touch"; empty for a serial port of an unknown device
   HapticBus bus = HapticBus::Serial;
-  bool accessible = false;  // the current user may read and write it
+  bool accessible = false;  // read and write access of the current user
   std::string group;        // the file's, whose members may open it; empty: unknown, or root's
 };
 
-// Serial ports (/dev/ttyACM*), and a Touch that is a HID device, a Force Dimension device or a Falcon at its USB node.
-// Reads /dev and /sys below `root`. Any thread that may wait.
+// Serial ports (/dev/ttyACM*), and the HID and USB nodes of known devices. Reads /dev and /sys below `root`. Any thread
+// that may wait.
 std::vector<HapticPort> find_haptic_ports(const std::string& root = "/");
 
 // Message about the rights on these ports, for the first one that cannot be opened.

@@ -35,9 +35,6 @@ class PotentialEnergy {
   // U; zero in WaitForLift, where there is no force.
   double at(physics::Phase phase, double height_m) const noexcept;
 
-  // E0.
-  double credit_j() const noexcept { return free_j_.back(); }
-
   // Steepest rise of the force on the way down, of either branch where the tip can be on it; over about 0.1 mm.
   double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }
 

@@ -92,7 +92,7 @@ class SafetyGovernor {
   bool released() const noexcept;  // no force, and none without a new Turn-On
 
   double force_cap_n() const noexcept { return output_.cap_n(); }
-  double slew_limit_n_per_s() const noexcept { return slew_n_per_s_; }  // in this tick
+  double slew_limit_n_per_s() const noexcept { return slew_n_per_s_; }  // slew limit in this tick
   const MotorThermalModel& motors() const noexcept { return motors_; }
   const PassivityObserver& observer() const noexcept { return observer_; }
   double observer_damping_n_s_per_m() const noexcept { return observer_damping_; }  // in this tick

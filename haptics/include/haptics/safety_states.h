@@ -22,7 +22,7 @@ struct SafetyConditions {
   bool turn_on_edge = false;  // pressed in this tick
   bool turn_on_held = false;
   bool interlock = false;  // lifted, free, still, no force requested
-  bool dead_man = false;   // the force lasts only while Turn-On is held
+  bool dead_man = false;   // force only while Turn-On is held
   bool late = false;       // this tick is so late that the path of the hand is unknown
   bool outside = false;    // outside the workspace
   bool hot = false;        // motors too hot

@@ -87,7 +87,7 @@ class ScanGuide {
   glm::dvec3 attractor_m_{0.0};
   double led_s_ = 0;
   bool leads_ = false;
-  bool lost_ = false;  // reset when Turn-On is released
+  bool lost_ = false;  // loss of the hand, until Turn-On is released
 };
 
 }  // namespace afm::haptics

@@ -142,7 +142,7 @@ class ServoLoop {
   Hand hand_;
   bool changing_ = false;  // force removed for a change of material, scale or parameters
   RendererLink renderer_ = RendererLink::Absent;
-  Touch touch_;  // in this tick
+  Touch touch_;  // touch in this tick
   scene::TipState state_;
   std::int64_t previous_ns_ = 0;
 

@@ -19,7 +19,7 @@ namespace afm::haptics {
 // Servo's thread: wait-free, allocates nothing.
 class FeltVibration {
  public:
-  static constexpr double kPerS = 100.0;             // a rate that fingers feel well, with ten ticks a period
+  static constexpr double kPerS = 100.0;             // well-felt rate, with ten ticks a period
   static constexpr double kShareOfStiffness = 0.25;  // share of the stiffness that the device renders
 
   explicit FeltVibration(const DeviceSpec& device);

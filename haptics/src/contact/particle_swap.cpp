@@ -53,7 +53,7 @@ struct ParticleSwap::Built {
         const DeviceSpec& device)
       : settings(with), felt(particles, scale, groove_limits(device)) {}
 
-  PushSettings settings;  // in full
+  PushSettings settings;  // complete settings
   FeltParticles felt;
 };
 

@@ -62,7 +62,7 @@ class PublishedTiles {
   std::vector<scene::MarkTile> tiles_;
   std::vector<std::uint64_t> marks_;  // numbers of the tiles
   std::uint64_t digest_ = scene::kSoftDigest;
-  std::uint32_t next_ = 0;  // tile from which on a changed one is looked for
+  std::uint32_t next_ = 0;  // first tile of the next search for a changed one
 };
 
 // State of a push on marks of which everything but the tip is known.

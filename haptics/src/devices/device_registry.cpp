@@ -28,6 +28,25 @@ core::Result<std::unique_ptr<HapticDevice>> open_simulated(const DeviceRequest& 
   return std::make_unique<SimulatedDevice>();
 }
 
+// Sources: bharatm11/Geomagic_Touch_ROS_Drivers #2 and #17, jsk_robot #1907 (a Touch has the vendor 2988, an older one
+// 0301:2988; those sold since 2023 are HID devices without a serial port).
+constexpr KnownPort kHdapiPorts[] = {
+    {HapticBus::Serial, 0x2988, {}, "Touch", R"(SUBSYSTEM=="tty", ATTRS{idVendor}=="2988", TAG+="uaccess")"},
+    {HapticBus::Serial, 0x0301, 0x2988, "Touch",
+     R"(SUBSYSTEM=="tty", ATTRS{idVendor}=="0301", ATTRS{idProduct}=="2988", TAG+="uaccess")"},
+    {HapticBus::Hid, 0x2988, {}, "Touch", R"(SUBSYSTEM=="hidraw", KERNELS=="*:2988:*", TAG+="uaccess")"},
+};
+// Source: sawForceDimensionSDK (1451, 0403:cb48).
+constexpr KnownPort kForceDimensionPorts[] = {
+    {HapticBus::Usb,
+     0x1451,
+     {},
+     "Force Dimension device",
+     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="1451", TAG+="uaccess")"},
+    {HapticBus::Usb, 0x0403, 0xcb48, "Novint Falcon",
+     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", TAG+="uaccess")"},
+};
+
 constexpr std::array kDevices{
     DeviceKind{.word = "hdapi",
                .subject = "hdapi device",
@@ -37,18 +56,25 @@ constexpr std::array kDevices{
                .controls = HandControls::Pen,
                .remedy = "switch it on and run the manufacturer's set-up program",
                .proof = "tested with a stand-in for its library only",
+               .models = "hdapi hd 3d geomagic sensable phantom premium omni desktop touch x stylus device mock",
+               .ports = kHdapiPorts,
                .open = open_hdapi,
                .probe = probe_hdapi},
-    DeviceKind{.word = "forcedimension",
-               .subject = "forcedimension device",
-               .meaning = "omega, delta, sigma, lambda or Falcon, through Force Dimension's library",
-               .renders_force = true,
-               .vibrates = true,
-               .controls = HandControls::Device,
-               .remedy = "switch it on and run the manufacturer's test program",
-               .proof = "tested with a stand-in for its library only",
-               .open = open_force_dimension,
-               .probe = probe_force_dimension},
+    DeviceKind{
+        .word = "forcedimension",
+        .subject = "forcedimension device",
+        .meaning = "omega, delta, sigma, lambda or Falcon, through Force Dimension's library",
+        .renders_force = true,
+        .vibrates = true,
+        .controls = HandControls::Device,
+        .remedy = "switch it on and run the manufacturer's test program",
+        .proof = "tested with a stand-in for its library only",
+        .models =
+            "forcedimension force dimension novint falcon omega.3 omega.6 omega.7 delta.3 delta.6 sigma.3 sigma.7 "
+            "lambda.3 lambda.6 lambda.7 device virtual mock",
+        .ports = kForceDimensionPorts,
+        .open = open_force_dimension,
+        .probe = probe_force_dimension},
     DeviceKind{.word = "haply",
                .subject = "haply device",
                .meaning = "Inverse3, Inverse3x or Minverse, through the manufacturer's service",
@@ -57,6 +83,8 @@ constexpr std::array kDevices{
                .controls = HandControls::Grip,
                .remedy = {},
                .proof = "tested with a stand-in for its service only",
+               .models = "haply inverse3 inverse3x minverse mini device",
+               .ports = {},
                .open = open_haply,
                .probe = probe_haply},
     DeviceKind{.word = "gamepad",
@@ -67,6 +95,10 @@ constexpr std::array kDevices{
                .controls = HandControls::Gamepad,
                .remedy = {},
                .proof = {},
+               .models = "gamepad joystick controller sony dualsense dualshock playstation ps4 ps5 nintendo switch "
+                         "xbox 360 one series "
+                         "x logitech usb wireless",
+               .ports = {},
                .open = open_gamepad,
                .probe = probe_gamepads},
     DeviceKind{.word = "sim",
@@ -77,9 +109,14 @@ constexpr std::array kDevices{
                .controls = HandControls::Simulated,
                .remedy = {},
                .proof = {},
+               .models = "simulated",
+               .ports = {},
                .open = open_simulated,
                .probe = probe_simulated},
 };
+
+static_assert(std::none_of(kDevices.begin(), kDevices.end(),
+                           [](const DeviceKind& kind) { return kind.models.empty(); }));
 
 core::Result<std::unique_ptr<HapticDevice>> open_kind(const DeviceKind& kind, const DeviceRequest& request,
                                                       std::vector<ProbeLine>& lines,

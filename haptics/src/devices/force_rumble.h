@@ -20,7 +20,7 @@ struct Rumble {
 class ForceRumble {
  public:
   static constexpr std::size_t kWindow = 4;
-  static constexpr double kJumpN = 0.06;  // a spring of 40 N/m changes by a quarter of that at 0.1 m/s
+  static constexpr double kJumpN = 0.06;  // four times the change of a spring of 40 N/m at 0.1 m/s
   static constexpr std::int64_t kSnapNs = 40'000'000;
   static constexpr std::int64_t kReleaseNs = 120'000'000;
   static constexpr double kHumShare = 0.35;
@@ -33,7 +33,7 @@ class ForceRumble {
 
  private:
   double cap_n_;
-  std::array<double, kWindow> before_n_{};  // in the last steps
+  std::array<double, kWindow> before_n_{};  // forces in the last steps
   std::size_t oldest_ = 0;
   std::int64_t shakes_until_ns_ = 0;
 };

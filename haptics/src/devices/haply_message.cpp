@@ -15,7 +15,7 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr std::size_t kLongestId = 256;  // the service's ids have four digits; this limit keeps every message small
+constexpr std::size_t kLongestId = 256;  // limit that keeps every message small; the service's ids have four digits
 constexpr std::size_t kLongestWord = 40;
 constexpr std::size_t kMostListed = 16;
 

@@ -12,8 +12,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <string_view>
+
+#include "haptics/device_registry.h"
 
 namespace afm::haptics {
 
@@ -21,41 +22,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Sources: bharatm11/Geomagic_Touch_ROS_Drivers #2 and #17, jsk_robot #1907 (a Touch has the vendor 2988, an older one
-// 0301:2988; those sold since 2023 are HID devices without a serial port); sawForceDimensionSDK (1451, 0403:cb48).
-struct KnownPort {
-  HapticBus bus;
-  unsigned vendor;
-  std::optional<unsigned> product;
-  const char* device;
-  const char* udev_rule;
-};
-constexpr const char* kSerialRule = R"(SUBSYSTEM=="tty", ATTRS{idVendor}=="2988", TAG+="uaccess")";
-constexpr KnownPort kKnownPorts[] = {
-    {HapticBus::Serial, 0x2988, {}, "Touch", kSerialRule},
-    {HapticBus::Serial, 0x0301, 0x2988, "Touch",
-     R"(SUBSYSTEM=="tty", ATTRS{idVendor}=="0301", ATTRS{idProduct}=="2988", TAG+="uaccess")"},
-    {HapticBus::Hid, 0x2988, {}, "Touch", R"(SUBSYSTEM=="hidraw", KERNELS=="*:2988:*", TAG+="uaccess")"},
-    {HapticBus::Usb,
-     0x1451,
-     {},
-     "Force Dimension device",
-     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="1451", TAG+="uaccess")"},
-    {HapticBus::Usb, 0x0403, 0xcb48, "Novint Falcon",
-     R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48", TAG+="uaccess")"},
-};
-
 struct UsbNumbers {
   unsigned vendor = 0;
   unsigned product = 0;
 };
 
+// First port of any kind of device for which `is_it` is true; null if there is none.
+template <class Predicate>
+const KnownPort* find_port(const Predicate& is_it) {
+  for (const DeviceKind& kind : device_kinds()) {
+    const auto found = std::find_if(kind.ports.begin(), kind.ports.end(), is_it);
+    if (found != kind.ports.end()) return &*found;
+  }
+  return nullptr;
+}
+
 const KnownPort* find_known(HapticBus bus, const UsbNumbers& numbers) {
-  const auto found = std::find_if(std::begin(kKnownPorts), std::end(kKnownPorts), [&](const KnownPort& known) {
+  return find_port([&](const KnownPort& known) {
     return known.bus == bus && known.vendor == numbers.vendor &&
            known.product.value_or(numbers.product) == numbers.product;
   });
-  return found == std::end(kKnownPorts) ? nullptr : found;
 }
 
 std::string first_line(const fs::path& file) {
@@ -159,13 +145,14 @@ PortRights judge_rights(const std::vector<HapticPort>& ports) {
   if (ports.empty()) return {.open = true, .said = "no haptic device is plugged in", .group = {}, .udev_rule = {}};
   const auto closed = std::find_if(ports.begin(), ports.end(), [](const HapticPort& port) { return !port.accessible; });
   if (closed != ports.end()) {
-    const auto known = std::find_if(std::begin(kKnownPorts), std::end(kKnownPorts), [&](const KnownPort& one) {
-      return one.bus == closed->bus && closed->device == one.device;
-    });
+    const KnownPort* known =
+        find_port([&](const KnownPort& one) { return one.bus == closed->bus && closed->device == one.device; });
+    // an unknown serial port has no row
+    if (known == nullptr) known = find_port([](const KnownPort& one) { return one.bus == HapticBus::Serial; });
     return {.open = false,
             .said = text_of(*closed) + " cannot be opened",
             .group = closed->bus == HapticBus::Serial ? closed->group : std::string(),
-            .udev_rule = known == std::end(kKnownPorts) ? kSerialRule : known->udev_rule};
+            .udev_rule = known == nullptr ? "" : known->udev_rule};
   }
   std::string said;
   for (const HapticPort& port : ports) said += (said.empty() ? "" : ", ") + text_of(port);

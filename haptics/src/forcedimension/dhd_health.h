@@ -14,7 +14,7 @@ enum class DhdHealth : std::uint32_t {
   Ready,
   NeedsCalibration,  // the user must move the end-effector to its rest
   NoPower,
-  ForceButtonOff,  // the user switched the force off at the device
+  ForceButtonOff,  // force switched off at the device
   DeadManReleased,
   VelocityExceeded,
   WatchdogExpired,  // the device had no new force for DhdDevice::kWatchdogNs

@@ -9,7 +9,7 @@ namespace afm::haptics {
 DeviceSample PositionCheck::checked(DeviceSample sample, std::int64_t elapsed_ns, const glm::dvec3& force_n) noexcept {
   if (!measured_) return sample;
   if (!sample.healthy || !is_within_reach(sample.position_m)) {
-    started_ = false;  // the first position after the failure is accepted
+    started_ = false;  // acceptance of the first position after the failure
     return sample;
   }
   if (!started_) {

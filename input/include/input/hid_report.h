@@ -46,7 +46,7 @@ struct HidInput {
   std::optional<glm::dvec3> turn;
   std::optional<std::uint32_t> buttons;  // bits of WandButton
   std::array<ImuSample, 3> imu;
-  std::size_t imu_count = 0;                   // evenly spaced since the previous report
+  std::size_t imu_count = 0;                   // number of samples, evenly spaced since the previous report
   bool has_gyro = true;                        // imu samples include the gyroscope
   std::optional<double> yaw_from_forward_rad;  // from a wand that sees a beacon straight ahead
 };

@@ -43,8 +43,6 @@ class HidSource final : public WandSource {
 
   WandState poll() override;
 
-  std::uint64_t refused_reports() const { return refused_; }  // only on the polling thread
-
  private:
   HidSource(std::vector<HidMapping> mappings, const HandPlace& place, const core::Clock& clock, std::string wanted);
 
@@ -64,7 +62,6 @@ class HidSource final : public WandSource {
   std::int64_t next_look_ns_ = 0;
   bool complained_ = false;  // log names the wanted wand as missing
   std::uint32_t stops_ = 0;
-  std::uint64_t refused_ = 0;
 };
 
 }  // namespace afm::input

@@ -21,7 +21,6 @@ class OrientationFilter {
 
   bool valid() const { return started_; }
   const glm::dquat& level_from_wand() const { return level_from_wand_; }
-  const glm::dvec3& bias_rad_per_s() const { return bias_; }
 
   // Angle about +y from -z to the pointing direction; 0 if it is vertical.
   double heading_rad() const;

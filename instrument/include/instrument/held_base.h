@@ -26,9 +26,9 @@ class HeldBase {
   // bears.
   double height_under(double force_n) const;
 
-  void lift();                  // to far above
+  void lift();                  // retraction to far above the sample
   void press(double height_m);  // from far above into contact, and to this height
-  void step(double height_m);   // along a straight path
+  void step(double height_m);   // motion along a straight path
 
   double force_n() const noexcept { return force_n_; }
   bool touches() const noexcept { return touches_; }

@@ -150,7 +150,7 @@ class SimulatedInstrument {
   InstrumentSettings settings_;
   curves::ContactSetup setup_;                           // with the worn tip
   std::optional<physics::SweepPlan> usual_path_;         // default of its curves; empty: not computed yet
-  std::shared_ptr<const imaging::ScanSurface> surface_;  // under the tip as it was at surface_radius_m_
+  std::shared_ptr<const imaging::ScanSurface> surface_;  // surface under the tip as it was at surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
   std::size_t state_flips_ = 0;

@@ -32,7 +32,7 @@ class BranchTable {
     double start = 0.0;  // |Z - Z_end| of its first node, m
     int first_octave = 0;
     double last_u = 0.0;
-    std::vector<Node> nodes;  // at least two
+    std::vector<Node> nodes;  // two nodes or more
   };
   static double node_u(int first_octave, std::size_t index) noexcept;
 

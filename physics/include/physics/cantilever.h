@@ -35,13 +35,8 @@ Stiffness spring_constant(const RectangularLever& lever);
 // tan(th) = b/(2 L). Agrees within some per cent with a bending and twisting frame for th from 15 to 35 degrees.
 Stiffness spring_constant(const VShapedLever& lever);
 
-Mass mass(const RectangularLever& lever);
-
 // f_i = alpha_i^2/(2 pi) sqrt(E I/(rho A L^4)) in vacuum; alpha_i of physics/flexural_modes.h.
 Frequency vacuum_resonance(const RectangularLever& lever, int mode = 1);
-
-// The mass that makes a point on the spring k resonate at the lever's first frequency: 3 m/alpha_1^4 = 0.243 m.
-Mass effective_mass(const RectangularLever& lever);
 
 // Stiffness of a lever of spring constant k against a force along the sample's normal if the lever is mounted at an
 // angle to the sample: k/cos^2(tilt) (Heim, Kappl & Butt 2004; without the tip's length and friction). Tilt below 90

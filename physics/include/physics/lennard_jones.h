@@ -22,9 +22,6 @@ class LennardJones {
   Force force(Length gap) const noexcept;
   Stiffness gradient(Length gap) const noexcept;  // dF/dD
 
-  // max dF/dD, at 3^(1/6) z0: a lever that is at least as stiff follows the law without a jump.
-  Stiffness steepest_attraction() const noexcept;
-
   Length atomic_distance() const noexcept { return z0_; }
 
  private:

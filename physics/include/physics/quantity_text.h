@@ -15,7 +15,7 @@ namespace afm::physics {
 struct Unit {
   std::string_view symbol;
   double per_si;         // units per SI unit; a power of ten, except for eV: 1e9 for nm, 1e-9 for GPa
-  bool shown;            // used in messages and output; false: an alternative spelling, only accepted as input
+  bool shown;            // unit for messages and output; false: an alternative spelling, only accepted as input
   double zero_si = 0.0;  // SI value of zero: 273.15 for degrees Celsius
 };
 

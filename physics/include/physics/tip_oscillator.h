@@ -75,7 +75,6 @@ class TipOscillator {
   Length deflection() const noexcept { return Length(deflection_); }  // z - Z: positive away from the sample
   Length height() const noexcept { return Length(base_ + deflection_); }
   Velocity velocity() const noexcept { return Velocity(swing_velocity_ + base_velocity_); }
-  Force surface_force() const noexcept { return Force(force_); }
   bool attached() const noexcept { return attached_; }
   const TipForce& surface() const noexcept { return *surface_; }
 

@@ -14,7 +14,7 @@ using Points = std::span<const LateralPoint>;
 // Distance back, as a share of the whole run's width, from which on a turn counts; larger than the noise.
 constexpr double kTurnShare = 0.1;
 constexpr double kStickShare = 0.4;   // change of force, as a share of that at a turn, below which the tip still sticks
-constexpr double kBeyondStick = 1.1;  // in units of the distance over which it sticks
+constexpr double kBeyondStick = 1.1;  // beginning of sliding, in units of the distance over which the tip sticks
 
 // Places of the points at which the direction changes, with the first and the last point.
 std::vector<std::size_t> turns_of(Points run) {

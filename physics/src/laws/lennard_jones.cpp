@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/lennard_jones.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace afm::physics {
@@ -28,7 +27,5 @@ Stiffness LennardJones::gradient(Length gap) const noexcept {
   const double x2 = x * x;
   return kEightPiThirds * force_scale_ / z0_ * (2.0 * x * x2 * (1.0 - x2 * x2 * x2));
 }
-
-Stiffness LennardJones::steepest_attraction() const noexcept { return gradient(std::pow(3.0, 1.0 / 6.0) * z0_); }
 
 }  // namespace afm::physics

@@ -48,8 +48,6 @@ Stiffness spring_constant(const VShapedLever& lever) {
   return 0.5 * slenderness * slenderness * slenderness * cosine / joint * (lever.young_modulus * lever.arm_width);
 }
 
-Mass mass(const RectangularLever& lever) { return lever.density * lever.length * lever.width * lever.thickness; }
-
 Frequency vacuum_resonance(const RectangularLever& lever, int mode) {
   // the second moment I = w t^3/12 over the cross-section w t
   const double root = flexural_root(mode);
@@ -57,8 +55,6 @@ Frequency vacuum_resonance(const RectangularLever& lever, int mode) {
   return root * root / (2.0 * std::numbers::pi * std::sqrt(12.0)) * (lever.thickness / lever.length) *
          (sound / lever.length);
 }
-
-Mass effective_mass(const RectangularLever& lever) { return 3.0 / std::pow(flexural_root(1), 4) * mass(lever); }
 
 Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad) {
   const double cosine = std::cos(tilt_rad);

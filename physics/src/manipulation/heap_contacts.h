@@ -48,7 +48,7 @@ class HeapContacts {
     double core_m = 0.0;    // flat radius of an island, which a heap pushes like a sphere; 0: none
     Flat start_axis{1.0, 0.0}, axis{1.0, 0.0};
     double turned_m = 0.0;
-    TipPull pull;  // adhesion of the tip, whose contact then pulls, too
+    TipPull pull;  // adhesion of the tip; a tip that adheres also pulls
 
     bool is_rod() const { return half_m > 0.0; }
     bool moved() const { return at.x != start.x || at.y != start.y || turned_m != 0.0; }

@@ -70,7 +70,7 @@ Length touching_distance(Length radius_a, Length radius_b) noexcept { return 2.0
 
 void validate(const PushSetup& setup) {
   require_range("tip_radius", setup.tip.radius, Length(1e-10), Length(1e-5), kLengthUnits);
-  require_range("half_angle", setup.tip.half_angle_rad, 0.0, 1.3, kPlainNumber);
+  require_angle("half_angle", setup.tip.half_angle_rad, 0.0, 1.3);
   for (const auto& [field, spring] :
        {std::pair{"lateral_spring", setup.springs.lateral}, std::pair{"normal_spring", setup.springs.normal},
         std::pair{"contact_stiffness", setup.springs.contact}}) {

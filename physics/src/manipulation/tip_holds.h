@@ -66,7 +66,7 @@ class TipHolds {
   }
 
  private:
-  static constexpr double kLargestFactor = 6.0;  // beyond the largest of pull_off_factor()
+  static constexpr double kLargestFactor = 6.0;  // bound above the largest pull_off_factor()
 
   struct Kind {
     TipPull pull;
@@ -77,7 +77,7 @@ class TipHolds {
   std::vector<Kind> kinds_;  // kind of each species
   std::vector<std::size_t> kind_of_;
   std::vector<TipPull> held_;
-  std::vector<bool> follows_;          // moved by a pull since the last touch
+  std::vector<bool> follows_;          // spheres moved by a pull since the last touch
   std::vector<std::uint32_t> formed_;  // contacts of each particle since reset()
   double stretch_m_ = 0.0;
 };

@@ -68,11 +68,6 @@ std::optional<DirectSwing> SwingMap::settled_near(Point at, Length z) {
   return swing;
 }
 
-std::optional<DirectSwing> SwingMap::rest_near(const TapState& point, Length z) {
-  const auto fixed = fixed_near(map_point_of(point), z);
-  return fixed && fixed->stable ? settled_near(fixed->at, z) : std::nullopt;
-}
-
 // For where the steps of direct integration make the map uneven, as under a soft lever deep in the sample, so that
 // Newton's method does not end: the point at which the swing itself rests.
 std::optional<SwingMap::Point> SwingMap::rest_of(Point at, Length z, std::span<const Point> known) {

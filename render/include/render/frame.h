@@ -124,7 +124,7 @@ struct PlotCurve {
   std::string label;
   glm::vec3 color{1.0F};  // sRGB
   bool faded = false;     // earlier material, drawn in the background
-  bool filled = false;    // the area between both branches has their colour: the energy of the loop
+  bool filled = false;    // area between both branches in their colour: the energy of the loop
   std::vector<PlotPoint> approach;
   std::vector<PlotPoint> retract;
 

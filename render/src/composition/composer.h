@@ -127,7 +127,7 @@ class Composer {
   Buffer anaglyphs_;
   vk::raii::DescriptorPool pool_;
   vk::raii::DescriptorSet set_{nullptr};
-  ComposeTarget target_;  // used by compose()
+  ComposeTarget target_;  // target of compose()
 };
 
 }  // namespace afm::render

@@ -22,7 +22,7 @@ struct PipelineRequest {
   std::span<const vk::VertexInputBindingDescription> bindings{};
   std::span<const vk::VertexInputAttributeDescription> attributes{};
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
-  vk::Format color_format = vk::Format::eUndefined;  // eUndefined: no colour
+  vk::Format color_format = vk::Format::eUndefined;  // format of the colour image; eUndefined: no colour
   vk::Format depth_format = vk::Format::eUndefined;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   std::uint32_t view_mask = 0;

@@ -92,7 +92,7 @@ class EyeSwapchains {
   void record_reordered(const vk::raii::CommandBuffer& command, const EyeTargets& eyes) const;
 
   HeadsetFormat format_;
-  Chains color_, depth_;    // `depth_` empty if the runtime accepts no depth
+  Chains color_, depth_;    // chains of both images; `depth_` is empty if the runtime accepts no depth
   bool has_depth_ = false;  // valid for this frame
   DeviceImage reordered_;   // in the runtime's byte order, if that differs
 };

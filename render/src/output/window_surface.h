@@ -71,7 +71,7 @@ class WindowSurface {
   std::optional<ComposePipeline> pipeline_;
   vk::raii::Semaphore acquired_;
   std::optional<Swapchain> swapchain_;
-  std::unique_ptr<XPicture> by_x_;      // null: the driver shows pictures in this window
+  std::unique_ptr<XPicture> by_x_;      // picture shown by X; null: the driver shows pictures in this window
   HostCopy host_;                       // the drawn image, for by_x_
   std::optional<std::uint32_t> index_;  // index of the acquired image
   bool outdated_ = false;

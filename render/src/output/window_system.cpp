@@ -29,7 +29,7 @@ namespace {
 // Prevents libwayland from printing a second line next to our error when there is no Wayland.
 void silence_wayland() {
   using Log = void (*)(const char* format, std::va_list values);
-  void* const wayland = ::dlopen("libwayland-client.so.0", RTLD_LAZY);  // never closed: the setting remains
+  void* const wayland = ::dlopen("libwayland-client.so.0", RTLD_LAZY);  // library kept open for the setting
   if (wayland == nullptr) return;
   const auto set_log = reinterpret_cast<void (*)(Log)>(::dlsym(wayland, "wl_log_set_handler_client"));
   if (set_log != nullptr) set_log([](const char*, std::va_list) {});

@@ -30,7 +30,7 @@ class GridSheet {
 
   bool empty() const { return texels_.empty(); }
   std::uint32_t height() const { return static_cast<std::uint32_t>(texels_.size() / kWidth); }
-  std::span<const std::array<std::uint8_t, 4>> texels() const { return texels_; }  // row by row
+  std::span<const std::array<std::uint8_t, 4>> texels() const { return texels_; }  // texels row by row
 
  private:
   glm::uvec2 next_{0};            // corner of the next grid's rim

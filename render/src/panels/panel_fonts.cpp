@@ -118,10 +118,4 @@ core::Result<PanelFonts> draw_panel_fonts(FontFiles& files, double texels_per_m,
   return fonts;
 }
 
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image) {
-  auto files = read_panel_fonts();
-  if (!files) return tl::unexpected(files.error());
-  return draw_panel_fonts(*files, texels_per_m, millimetre_m, largest_image);
-}
-
 }  // namespace afm::render

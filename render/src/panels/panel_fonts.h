@@ -44,7 +44,4 @@ core::Result<FontFiles> read_panel_fonts();
 core::Result<PanelFonts> draw_panel_fonts(FontFiles& files, double texels_per_m, double millimetre_m,
                                           std::uint32_t largest_image);
 
-// Both.
-core::Result<PanelFonts> load_panel_fonts(double texels_per_m, double millimetre_m, std::uint32_t largest_image);
-
 }  // namespace afm::render

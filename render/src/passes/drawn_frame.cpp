@@ -14,7 +14,7 @@
 namespace afm::render {
 namespace {
 
-constexpr int kMarginPx = 2;  // the device computes in float
+constexpr int kMarginPx = 2;  // margin for a device that computes in float
 constexpr double kFarPx = 1e6;
 constexpr MeshCopy kNoCopy{.scale = 0.0F, .turn = glm::vec4(0.0F), .tint = glm::vec4(0.0F)};
 

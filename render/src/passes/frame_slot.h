@@ -67,7 +67,7 @@ class FrameSlot {
   struct Recorded {
     DrawList draws;
     EyePassConfig drawing;
-    std::uint64_t panels = 0;  // as Panels::revision()
+    std::uint64_t panels = 0;  // revision of the panels, as Panels::revision()
     bool anything = false;
 
     // Stores the new values; true if something has changed.

@@ -78,7 +78,7 @@ class ScenePass {
   vk::raii::Pipeline shadow_{nullptr}, shadow_copies_{nullptr};  // created at first use
   std::array<EyePipeline, 2> copies_;                            // without and with fog
   EyePipeline fine_;                                             // shaded per vertex, without fog
-  EyePipeline background_;                                       // drawn where nothing else is
+  EyePipeline background_;                                       // pipeline for pixels without an object
   EyePipeline erasing_background_;                               // overwrites the old contents
   std::array<PlainPipelines, 2> blended_;
   std::vector<EyePipeline> variants_;  // in the order of SceneGeometry::variants()

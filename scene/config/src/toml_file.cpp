@@ -100,7 +100,11 @@ std::optional<std::size_t> line_of_control_character(const toml::node& node) {
 
 core::Result<toml::table> parse_toml(const char* kind, const std::string& path) {
   const auto text = core::read_file(path);
-  if (!text) return tl::unexpected(bad(kind, path, "cannot be read; check the path and its permissions"));
+  if (!text) {
+    // "cannot read PATH: there is no such file"
+    const std::string& why = text.error().message;
+    return tl::unexpected(bad(kind, path, "cannot be read" + why.substr(std::min(why.rfind(": "), why.size()))));
+  }
   if (text->size() > kLargestBytes) return tl::unexpected(bad(kind, path, "is larger than 4 MiB"));
   if (const auto line = line_of_too_long_key(*text)) {
     return tl::unexpected(bad(kind, path, fmt::format("line {}: a key has more than {} parts", *line, kMostParts)));

@@ -330,7 +330,11 @@ core::Result<Wall> load_pvx(const std::string& path) {
     return core::failure(core::ErrorCategory::BadInputFile, fmt::format("wall file {}: {}", path, what));
   };
   const auto read = core::read_beginning(path, kLargestFile + 1);
-  if (!read) return bad("cannot be read; check the path and its permissions");
+  if (!read) {
+    // "cannot read PATH: there is no such file"
+    const std::string& why = read.error().message;
+    return bad("cannot be read" + why.substr(std::min(why.rfind(": "), why.size())));
+  }
   const std::string& text = *read;
   if (text.size() > kLargestFile) return bad("is larger than 1 MiB; is it a ParaView configuration?");
   const auto line_of = [&](std::ptrdiff_t offset) {

@@ -59,7 +59,7 @@ struct GltfMember {
   std::string_view needs{};   // required member of the same object
   std::string_view bars{};    // excluded members of the same object, separated by spaces
   double slack = 0.0;         // distance beyond `low` and `high` within which a number becomes the limit, with a note
-  bool clamps_above = false;  // any number above `high` becomes it, with a note
+  bool clamps_above = false;  // replacement of any number above `high` by it, with a note
 
   constexpr GltfMember required() const {
     GltfMember copy = *this;

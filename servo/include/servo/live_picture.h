@@ -73,7 +73,7 @@ class LivePicture {
 
   std::span<const scene::ParticlePage> shown() const { return state_.shown; }
   const PictureState& state() const { return state_; }
-  const PictureNow& now() const { return now_; }  // after the newest sample
+  const PictureNow& now() const { return now_; }  // picture after the newest sample
 
   const scene::PushSettings& settings() const { return settings_; }  // as given to follow_settings(); default: none
 

@@ -162,7 +162,7 @@ class ServoClient {
   std::uint32_t put_back_ = 0;
   std::uint32_t looked_ = 0;
   std::optional<std::int64_t> stopped_ns_;  // time of the last stop()
-  Picture picture_ = Picture::Seen;         // as last set by set_picture()
+  Picture picture_ = Picture::Seen;         // state last set by set_picture()
   std::unique_ptr<TipListener> listener_;
   std::unique_ptr<Servo> servo_;  // last member: it ends before its segment is destroyed
 };

@@ -142,7 +142,7 @@ struct WallFrame {
   std::string panels{};  // "samples", "parameters", "friction-loop", "sources", "keys" or "none"
   std::string guidance{};
   bool retracting = false;
-  double release_z_m = 0;                               // as in ActiveContact
+  double release_z_m = 0;                               // height of release, as in ActiveContact
   std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
   std::optional<RecordedScan> scan{};
   std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`

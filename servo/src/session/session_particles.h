@@ -23,7 +23,7 @@ struct ParticleChunk {
 // All of them, in the order of a file.
 std::span<const ParticleChunk> particle_chunks();
 
-bool is_soft(const RecordedParticles& particles);    // a soft sample, which the tip scratches
+bool is_soft(const RecordedParticles& particles);    // true for a soft sample, which the tip scratches
 bool is_ink(const RecordedParticles& particles);     // ink, with which the tip writes
 bool has_level(const RecordedParticles& particles);  // particles at level 1 or 2
 

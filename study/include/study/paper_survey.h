@@ -15,7 +15,7 @@ struct SurveyQuestion {
   std::string_view item;  // "paper-1", as in data sets
   std::string_view short_name;
   std::string_view text;  // as printed in the paper
-  double mean, sd;        // printed with two decimals; the SD is divided by n-1
+  double mean, sd;        // numbers printed with two decimals; the SD is divided by n-1
 };
 
 inline constexpr std::size_t kSurveyPeople = 20;

@@ -20,12 +20,10 @@ struct ThresholdTrial {
 // Share of inattentive answers assumed by the fit, as in QUEST (Watson & Pelli 1983).
 inline constexpr double kLapseRate = 0.01;
 
-// P(answers "second") of an observer whose d' grows as a power of the level (Pelli 1987) and who prefers an interval:
-// Phi(-+ z(0.75) (w/W)^b - bias/sqrt(2)), + if the second is stronger. W, the Weber fraction, is the level at which an
-// observer without preference is right in 75 % of the trials: d' = sqrt(2) z(0.75) = 0.954. b = 1 by Weber's law and
-// signal detection theory. The bias, in units of d', is above 0 for a preference of "first".
-double answers_second_probability(const ThresholdTrial& trial, double weber_fraction, double exponent, double bias);
-
+// Parameters of an observer whose d' grows as a power of the level (Pelli 1987) and who prefers an interval:
+// P(answers "second") = Phi(-+ z(0.75) (w/W)^b - bias/sqrt(2)), + if the second is stronger. W, the Weber fraction, is
+// the level at which an observer without preference is right in 75 % of the trials: d' = sqrt(2) z(0.75) = 0.954. b = 1
+// by Weber's law and signal detection theory. The bias, in units of d', is above 0 for a preference of "first".
 struct ThresholdFit {
   Estimate weber_fraction{};  // ends are 0 or infinite if the trials do not bound them
   Estimate bias{};

@@ -107,6 +107,23 @@ TEST(AnalyseCommand, RefusesABaselineThatIsNone) {
                  "the range of the baseline has 0 points of the approach");
 }
 
+// A terminal would obey them.
+TEST(AnalyseCommand, PrintsNoControlCharacterOfAName) {
+  const support::ScratchFolder folder;
+  const std::string name = "a\x1b[31m\nzz",
+                    curve = folder.write(name + ".tab", core::read_file(data("bom.tab")).value()),
+                    image = folder.write(name + ".spm", core::read_file(data("qnm-log.spm")).value());
+  for (const std::string& command :
+       {"analyse '" + curve + "'", "analyse '" + image + "'",
+        "convert '" + curve + "' '" + folder.file(name + ".h5") + "'",
+        "analyse '" + curve + "' --fit cone --half-angle 20deg --out '" + folder.file(name) + "'"}) {
+    const ProgramResult made = run_touchafm(command);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.out + made.err, testing::Not(HasSubstr("\x1b")));
+    EXPECT_THAT(made.out + made.err, testing::Not(HasSubstr("\nzz"))) << "no line of its own";
+  }
+}
+
 TEST(AnalyseCommand, PrintsTheWavesOfABaseline) {
   const support::ScratchFolder folder;
   const ProgramResult made = run_touchafm(

@@ -23,6 +23,7 @@
 #include "support/places.h"
 #include "support/run_program.h"
 #include "support/scratch_folder.h"
+#include "support/sweet_spot.h"
 #include "support/virtual_display.h"
 
 namespace afm::app {
@@ -61,7 +62,7 @@ class LessonView : public ::testing::Test {
     stage.wall.viewers.front().ipd_m = 0.0;
     const auto place = exhibit::lesson_places(stage.wall_scene.places().parameters(), targets).targets.at(target);
     const glm::dvec3 middle_m = place.lower_left_m + 0.5 * (place.right_m + place.up_m);
-    const scene::EyeView eye = exhibit::eyes_at_sweet_spot(stage.wall).value()[0];
+    const scene::EyeView eye = support::eyes_at_sweet_spot(stage.wall)[0];
     const glm::dvec4 clip = eye.projection * eye.view * glm::dvec4(middle_m, 1.0);
     const glm::dvec2 pixel = 0.5 * glm::dvec2(kWidth, kHeight) * (glm::dvec2(clip) / clip.w + 1.0);
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool mousemove " +

@@ -231,8 +231,7 @@ double shown(const Image& image, ScanArtefact artefact) {
       image.mean([&](auto c, auto r) { return most_n = std::max(most_n, image.error_n(c, r)); });
       return most_n / setpoint_n;
     }
-    case ScanArtefact::Drift:  // by how many pixels the newest lines lie beside the sample, to the right and above
-                               // alike
+    case ScanArtefact::Drift:  // pixels from the sample to the newest lines, to the right as above
       return least_at([&](int way) {
         return image.mean(
             [&](auto c, auto r) { return square(image.height_m(0, c, r) - image.place_m(c, r, way, way)); });

@@ -204,7 +204,7 @@ TEST(HandScan, IsTheSameAgainFromItsSession) {
   const ScanProgress progress = scan_progress_of(frame);
   EXPECT_EQ(progress, scan.progress());
   ASSERT_TRUE(LiveScan::valid(progress));
-  ticks.line(-30e-9, samples);  // after that frame
+  ticks.line(-30e-9, samples);  // line after that frame
   const LiveScan again(hills(), progress, samples);
   EXPECT_EQ(image_panel(again, "", english()), image_panel(scan, "", english()));
   ScanProgress bad = progress;

@@ -83,7 +83,7 @@ TEST(SoundAnalysis, FindsAPitchWithinACent) {  // D04
   EXPECT_LT(std::abs(test::cents(test::pitch_hz(sine, 48000.0), 261.6255653)), 1.0);
 }
 
-TEST(SoundAnalysis, FindsALevel) {  // D06
+TEST(SoundAnalysis, FindsALevel) {  // case D06
   std::vector<double> sine(4800);
   for (std::size_t i = 0; i < sine.size(); ++i) {
     sine[i] = 0.25 * std::sin(2.0 * std::numbers::pi * 1000.0 * static_cast<double>(i) / 48000.0);

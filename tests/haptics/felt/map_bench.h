@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <map>
 #include <memory>
 #include <random>
 #include <vector>
@@ -32,9 +33,19 @@ inline scene::SharedContact rubber(physics::Law law) {
   return material;
 }
 
-// A map of 1 to 8 MPa and 20 to 80 mJ/m2 with a hill of each, as wide in the hand as a sample on the wall: 82 mm.
-inline std::unique_ptr<scene::SharedLawMap> hilly_map(const scene::SharedContact& material) {
+// Spacing of the points of a map of the rubber that is as wide in the hand as a sample on the wall: 82 mm. The laws of
+// a map take a second to compute: once for each law.
+inline double hilly_spacing_m(physics::Law law, const scene::SharedLawMap& map) {
   constexpr double kWidthOfStroke = 1.65;
+  static std::map<physics::Law, double> known;
+  if (const auto found = known.find(law); found != known.end()) return found->second;
+  const auto family = haptics::LawFamily::create(rubber(law), map).value();
+  const auto fit = haptics::Scaling::fit(family->laws(), haptics::omni_like("hand")).value();
+  return known[law] = kWidthOfStroke * haptics::Scaling::kStrokeM / fit.hand_m_per_m() / 63.0;
+}
+
+// A map of 1 to 8 MPa and 20 to 80 mJ/m2 with a hill of each.
+inline std::unique_ptr<scene::SharedLawMap> hilly_map(const scene::SharedContact& rubber) {
   auto map = std::make_unique<scene::SharedLawMap>();
   map->columns = 64;
   map->rows = 48;
@@ -49,9 +60,7 @@ inline std::unique_ptr<scene::SharedLawMap> hilly_map(const scene::SharedContact
       map->adhesion_j_per_m2[cell] = static_cast<float>(20e-3 + 60e-3 * sticky);
     }
   }
-  const auto family = haptics::LawFamily::create(material, *map).value();
-  const auto fit = haptics::Scaling::fit(family->laws(), haptics::omni_like("hand")).value();
-  map->spacing_m = kWidthOfStroke * haptics::Scaling::kStrokeM / fit.hand_m_per_m() / 63.0;
+  map->spacing_m = hilly_spacing_m(rubber.law, *map);
   return map;
 }
 

@@ -207,7 +207,7 @@ TEST(MapContact, IsTheOrdinaryContactWhereTheMapHasOneValue) {
 
 // The law at a place is that of its modulus: the splines between the laws of the family add nothing.
 TEST(MapContact, HasTheLawOfEveryModulusAndAdhesionOfTheMap) {
-  for (const double share : {0.0, 0.31, 1.0}) {
+  for (const double share : support::deep() ? std::vector{0.0, 0.31, 1.0} : std::vector{0.31}) {
     const auto map = test::hilly_map(test::rubber(Law::Dmt));
     const double ln_modulus = std::log(1e6) + share * std::log(8.0), adhesion = 20e-3 + share * 60e-3;
     // everywhere the same, but for two points with the ends of both ranges, far from the middle

@@ -63,7 +63,7 @@ class MarkingHand {
 
  protected:
   virtual haptics::FeltMarks& marks() = 0;
-  virtual void check() {}  // after each tick of go()
+  virtual void check() {}  // hook after each tick of go()
 
   const scene::SharedParticles& particles() const { return *particles_; }
 

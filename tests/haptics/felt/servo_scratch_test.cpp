@@ -47,7 +47,7 @@ class ScratchingBench : public ServoBench {
 
   void order(std::uint32_t& orders) {
     ++orders;
-    run(0.4);  // tile by tile
+    run(0.4);  // time to send the surface tile by tile
   }
 
   std::vector<scene::MarkTile>& tiles() {

@@ -73,7 +73,7 @@ inline Stiffness slope_at_rest(const SineLattice& lattice) {
 
 // The slip out of the well at 0, towards the well at a.
 struct SineSlip {
-  Length support;      // X
+  Length support;      // place of the support, X
   Length tip_before;   // x
   Length tip_after;    // in the next well, even if there are more: an overdamped tip
   Force force_before;  // k (X - x): (k a/2 pi) sqrt(eta^2 - 1)

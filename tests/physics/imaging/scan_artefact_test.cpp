@@ -65,7 +65,7 @@ TEST(ScanArtefact, ComesWithItsCauseAndGoesWithIt) {
       {ScanArtefact::Blur, [](ScanSettings& s) { s.integral_gain = Frequency(30.0); }},
   };
   std::set<ScanArtefact> seen{ScanArtefact::None, ScanArtefact::BluntTip,           // unknown to a scanner
-                              ScanArtefact::StateFlips, ScanArtefact::Saturation};  // in tapping mode
+                              ScanArtefact::StateFlips, ScanArtefact::Saturation};  // artefacts in tapping mode
   for (const Cause& cause : causes) {
     ScanSettings settings = good_settings();
     EXPECT_EQ(artefact_of(settings, cause.surface), ScanArtefact::None) << name_of(cause.artefact);

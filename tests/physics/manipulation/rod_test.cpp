@@ -55,7 +55,7 @@ PushedParticles lowered_beside(double s_m, const PushSetup& setup = thin_setup()
 }
 
 struct RodPlace {
-  double x = 0.0, y = 0.0, angle = 0.0;  // over the length, and rad
+  double x = 0.0, y = 0.0, angle = 0.0;  // place over the length, and angle in rad
 };
 
 RodPlace place_of(const PushedParticles& particles) {

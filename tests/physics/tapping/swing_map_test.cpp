@@ -33,14 +33,15 @@ TEST(SwingMap, HasTheStatesOfAveragesAndOfTheSettledTip) {
   TappingOscillator tip(sample.surface(), sample.lever());
   const std::vector<TapState> averaged = averaged_at(sample, 17.4149_nm);
   ASSERT_EQ(averaged.size(), 3U);
-  for (const TapState& state : {averaged[0], averaged[2]}) {
-    const auto rest = map.rest_near({state.amplitude + 0.05_nm, state.phase + 0.02}, 17.4149_nm);
-    ASSERT_TRUE(rest);
-    tip.place(17.4149_nm, state);
+  const std::vector<DirectSwing> resting = map.stable_beside({}, 17.4149_nm);
+  ASSERT_EQ(resting.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    const TapState rest = resting[i].state, average = averaged[2 * i];
+    tip.place(17.4149_nm, average);
     const TapState settled = tip.settle().state;
-    EXPECT_NEAR(nm_of(rest->state.amplitude), nm_of(settled.amplitude), 2e-3);
-    EXPECT_NEAR(degrees_of(rest->state.phase), degrees_of(settled.phase), 0.1);
-    EXPECT_NEAR(nm_of(rest->state.amplitude), nm_of(state.amplitude), 2e-2);
+    EXPECT_NEAR(nm_of(rest.amplitude), nm_of(settled.amplitude), 2e-3);
+    EXPECT_NEAR(degrees_of(rest.phase), degrees_of(settled.phase), 0.1);
+    EXPECT_NEAR(nm_of(rest.amplitude), nm_of(average.amplitude), 2e-2);
   }
   EXPECT_TRUE(map.stable_beside(averaged, 17.4149_nm).empty());
 }

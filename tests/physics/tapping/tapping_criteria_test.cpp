@@ -72,7 +72,7 @@ int nearest_root(const std::vector<RestingTap>& roots, const TapState& swing) {
 struct RestCase {
   TappedSample sample;
   Length z;
-  bool with_envelope;         // a table, a second of work
+  bool with_envelope;         // model with a table, a second of work
   std::size_t elsewhere = 0;  // number of states that direct integration leaves
   struct Pair {
     TapState averaged, enveloped, direct;

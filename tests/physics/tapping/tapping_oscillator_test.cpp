@@ -25,7 +25,7 @@ TEST(TappingOscillator, IsExactWithoutASample) {
       const TappedSample sample{.q = 3.0, .ratio = ratio, .h_zj = 0.001};
       const DrivenLever lever = sample.lever();
       TappingOscillator tip(sample.surface(Law::Hertz), lever, steps);
-      tip.place(1_um, {});  // from rest: the transient must die, too
+      tip.place(1_um, {});  // start from rest: the transient must die, too
       const DirectSwing swing = tip.settle();
       EXPECT_NEAR(swing.state.amplitude.si, 20e-9, 20e-18) << ratio << " " << steps;
       EXPECT_NEAR(swing.state.phase, lever.free_phase, 1e-9) << ratio << " " << steps;

@@ -52,7 +52,7 @@ inline std::string stored_zip(const std::map<std::string, std::string>& entries,
     directory += "PK\x01\x02";
     put(directory, 2, 20);
     put_description(directory);
-    put(directory, 2, 0);  // comment
+    put(directory, 2, 0);  // size of the comment
     put(directory, 8, 0);  // disk and attributes
     put(directory, 4, offset);
     directory += name;

@@ -37,7 +37,7 @@ struct FitOptions {
   bool bootstrap = false;                           // adds an interval by kBootstraps fits to resampled residuals
   std::vector<std::string> uncertainty_texts;       // "radius=5%"
   std::vector<fits::Uncertainty> uncertainties{};   // set by prepare() from the texts
-  std::shared_ptr<const fits::LayerTable> table{};  // set by prepare() for an exact layer
+  std::shared_ptr<const fits::LayerTable> table{};  // table for an exact layer, set by prepare()
 };
 
 // A number that a user gives to a fit.

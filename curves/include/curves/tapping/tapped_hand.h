@@ -20,7 +20,7 @@ struct TappingChoice {
 struct TappedHand {
   TappingChoice choice{};
   std::string model = "auto";
-  std::string felt = "push";                                 // or mean
+  std::string felt = "push";                                 // force that is felt: "push" or "mean"
   std::map<std::string, std::string, std::less<>> values{};  // as typed, by the option of contact_parameters()
 };
 

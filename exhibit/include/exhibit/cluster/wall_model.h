@@ -21,7 +21,7 @@ namespace afm::exhibit {
 // All inputs that a node needs before the first frame. The files are included as texts, so the node need not have them.
 struct WallModel {
   std::uint64_t build = 0;                    // digest of the program: another one may build other frames
-  std::uint64_t scene = 0;                    // digest of the scene: other models would show another one
+  std::uint64_t scene = 0;                    // digest of the scene, which differs for other models
   std::string wall;                           // text of the wall file
   std::string guidance;                       // text of the user's phrase file; empty: none
   std::string materials;                      // text of the user's material file; empty: none

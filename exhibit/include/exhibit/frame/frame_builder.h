@@ -58,9 +58,6 @@ class FrameBuilder {
   mutable std::optional<ShownMarks> marks_;
 };
 
-// Eyes of the wall's first viewer at the sweet spot, for the first screen.
-core::Result<std::array<scene::EyeView, 2>> eyes_at_sweet_spot(const scene::Wall& wall);
-
 // Colours of the curves, by the material's index in its file, which differ without red, green or blue vision, too.
 glm::vec3 curve_color(std::size_t material);
 

@@ -36,7 +36,7 @@ class HandAnswer {
   std::optional<double> from_m_;   // height of the mark's last step
   std::optional<bool> went_down_;  // direction of that step
   double moved_s_ = 0;
-  std::optional<std::uint64_t> presses_;  // number at the last call
+  std::optional<std::uint64_t> presses_;  // number of presses at the last call
 };
 
 }  // namespace afm::exhibit

@@ -83,8 +83,6 @@ class QuestStaircase final : public Staircase {
   double level() const override { return level_; }
   void answer(bool right) override;
 
-  double mean() const;
-  double mode() const;
   double quantile() const;  // order of the quantile at which an answer is most informative
 
  private:

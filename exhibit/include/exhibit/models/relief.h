@@ -11,7 +11,7 @@ namespace afm::exhibit {
 
 // A square of measured heights in false colours, which grows while a tip measures it.
 struct HeightRelief {
-  double side_m = 0;                    // metres of the sample's frame, as the next two
+  double side_m = 0;                    // side in metres of the sample's frame, like floor and lid
   double floor_m = 0, lid_m = 0;        // heights of the lowest and the highest place of the mesh's box
   double range_m = 0;                   // from the darkest to the brightest colour, metres as measured
   std::vector<scene::Vertex> vertices;  // one for each of relief_mesh()

@@ -172,7 +172,7 @@ class LiveScan {
   const physics::Scanner& scanner() const { return *scanner_; }  // scanner of the current frame
   std::size_t row() const;                                       // current row; 0 is the top
   glm::dvec3 apex_m() const;                                     // sample's frame
-  double force_n() const { return force_n_; }                    // on the lever, at the newest pixel; tapping: 0
+  double force_n() const { return force_n_; }  // force on the lever at the newest pixel; 0 in tapping mode
   // Height traced by the apex at this place, all in the sample's frame.
   double surface_m(double x_m, double y_m) const;
 

@@ -17,7 +17,7 @@ enum class ScanRow { Setpoint, Gain, Rate, TipRadius, Noise, Drift, SecondApex, 
 
 // Values of the settings. The tip's radius determines the traced surface; all others are the microscope's.
 struct ScanChoice {
-  double setpoint_n = 2e-9;  // in tapping mode the share of the free amplitude, without a unit: see in_tapping()
+  double setpoint_n = 2e-9;  // setpoint; in tapping mode a share of the free amplitude, without a unit: in_tapping()
   double gain_per_s = 2000;  // gain of the integral controller
   double line_rate_hz = 10;
   double tip_radius_m = 10e-9;

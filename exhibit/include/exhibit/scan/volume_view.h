@@ -52,7 +52,7 @@ class VolumeView {
     glm::dvec2 size_m{0.0};                                 // between the middles of the outermost pixels, as measured
     glm::dvec2 map_m{0.0};                                  // whole map
     std::function<double(double x_m, double y_m)> drawn_m;  // height of the surface, in metres as drawn
-    scene::TopographyScale shown{};                         // metres of the sample's frame per such metre
+    scene::TopographyScale shown{};                         // metres of the sample's frame per metre as drawn
     double floor = 0, lid = 0;                              // surface; top of the highest curve over it
   };
   // The newest drawing.

@@ -13,9 +13,9 @@ class LinePlayer {
 
   struct Place {
     double along = 0.5;      // share of the image's width, from its left edge
-    double height_m = 0;     // as measured there
+    double height_m = 0;     // height as measured there
     double error_n = 0;      // normal force beside the setpoint, as measured there; zero in tapping mode
-    bool returning = false;  // on the retrace
+    bool returning = false;  // retrace instead of trace
   };
 
   // Begins with the first pixel of the trace. A line without pixels is over at once.

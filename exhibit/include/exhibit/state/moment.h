@@ -31,15 +31,15 @@ class LiveScan;
 struct Moment {
   WallState wall;
   scene::ServoState servo_state = scene::ServoState::Disarmed;
-  bool stopped = false;  // in Fault: a person has stopped the force
+  bool stopped = false;  // a person's Stop as the cause of a Fault
   physics::Phase phase = physics::Phase::WaitForLift;
   bool by_wand = false;     // a wand points, not a mouse
   bool retracting = false;  // after the deepest push of this cycle
   bool realtime = false;
-  double slow_motion = 1;  // see scene::ActiveContact
+  double slow_motion = 1;  // factor as in scene::ActiveContact
   std::string guidance;
   std::string letters;                 // labels of the keyboard, as render::Window::letters() returns them
-  std::vector<render::DataRow> servo;  // see servo_rows()
+  std::vector<render::DataRow> servo;  // rows from servo_rows()
   // one per material, empty until it has been felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
   const LiveScan* scan = nullptr;    // replaces the curves by its images; may be null

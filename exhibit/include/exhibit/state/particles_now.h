@@ -39,7 +39,7 @@ struct ParticlesNow {
   const servo::PictureNow* picture = nullptr;              // at level 1 and 2
   double look_load_n = 0;                                  // with which the next look scans
   std::span<const scene::MarkTile> tiles{};                // marks of a soft sample
-  std::uint64_t marks = 0;                                 // other tiles have another number
+  std::uint64_t marks = 0;                                 // number of the tiles' state, different for other tiles
   const std::vector<scene::PushLimits>* limits = nullptr;  // limits of each species; null: not known
 };
 

@@ -24,8 +24,8 @@ enum class Centerpiece { Instrument, Plot, Analogy, Journey };
 struct WallState {
   std::optional<std::size_t> material{};  // empty: no sample on the stage yet
   scene::Tip tip{};
-  scene::Swing swing{};      // none: the lever does not tap
-  bool stroboscope = false;  // shows the lever where it is in its swing, slowed down
+  scene::Swing swing{};      // swing of a lever that taps; none: it does not
+  bool stroboscope = false;  // slowed-down view of the lever within its swing
   double strobe_turns = 0;   // place in that slow swing, 0 to 1 from its lowest point
   scene::SurfacePoint surface{};
   double release_z_m = 0;  // with the tip's current parameters; 0: with the material's

@@ -24,7 +24,7 @@ class LateralContact {
 
   // All zero while not touching.
   Sideways<Force> force() const noexcept;  // on the support
-  Energy stored() const noexcept;          // in spring and lattice
+  Energy stored() const noexcept;          // energy in spring and lattice
   Length lift_per_load() const noexcept;   // d stored/dN at a fixed support: paid by a rising load
 
   Stiffness stiffness() const noexcept { return stiffness_; }  // stiffness of its stiffest spring

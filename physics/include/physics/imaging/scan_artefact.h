@@ -24,7 +24,7 @@ enum class ScanArtefact {
                 // setpoint too near to the free state
   StateFlips,   // tapping: the swing changes between its two states, which have different heights at one amplitude
   Saturation,   // tapping: in front of a step up the swing stops, and the image is a slope: too fast
-  Overload,     // in front of a step up the lever presses harder than three times the setpoint
+  Overload,     // force above three times the setpoint in front of a step up
   DoubleTip,    // a second apex causes ghosts
   Drift,        // the sample moves during the scan: the image is sheared or stretched
   Noise,        // detector noise as large as the relief

@@ -64,7 +64,7 @@ struct ScanField {
   std::string_view option;                      // option of the command line, without its dashes
   std::string_view json_key;                    // key of its SI value
   std::string_view help;                        // description for help texts
-  double smallest;                              // SI, legal itself
+  double smallest;                              // smallest legal value, SI
   double largest;                               // largest accepted value
   const Units* units;                           // kPlainNumber if it has none
   double (*get)(const ScanSettings& settings);  // SI

@@ -51,7 +51,7 @@ class TappingDetector {
 
   double amplitude_m() const noexcept;
   double phase_rad() const noexcept;     // lag behind the drive, 0 to 2 pi
-  double lost_j() const noexcept;        // in the sample, per swing
+  double lost_j() const noexcept;        // energy lost in the sample, per swing
   double peak_force_n() const noexcept;  // at the lowest point of the swing
 
   const DrivenLever& lever() const noexcept { return lever_; }

@@ -54,7 +54,7 @@ class InkedSurface {
   void lift() noexcept;
 
   Area covered() const noexcept;  // since the start
-  Area lost() const noexcept;     // flowed out where no bare square was within reach
+  Area lost() const noexcept;     // ink that flowed out where no bare square was within reach
 
   // Mean width of what is covered across the middle half of a way.
   Length width(const Sideways<Length>& from, const Sideways<Length>& to) const noexcept;

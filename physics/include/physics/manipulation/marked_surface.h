@@ -184,7 +184,7 @@ class MarkedSurface {
   double left_m_ = 0.0, bottom_m_ = 0.0;  // middle of the first square
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<double> pressed_m_;      // height under the tip that pressed last
-  std::vector<double> back_m_;         // by which it rises when the tip has left
+  std::vector<double> back_m_;         // rise of the surface when the tip has left
   std::vector<std::uint8_t> changed_;  // one for each tile, 1: changed
   double pressed_m3_ = 0.0, for_good_m3_ = 0.0, ridges_m3_ = 0.0, under_way_m3_ = 0.0;
 };

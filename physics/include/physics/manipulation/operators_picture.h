@@ -62,7 +62,7 @@ class OperatorsPicture {
     std::size_t particle = 0;
     PixelBox box;
     Time begun;
-    std::size_t done = 0;  // lines
+    std::size_t done = 0;  // number of finished lines
     std::vector<std::optional<ParticlePlace>> found;
     std::vector<ParticlePlace> there;  // in the newest line
   };

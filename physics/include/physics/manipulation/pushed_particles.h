@@ -47,7 +47,7 @@ struct PushSetup {
   PushSprings springs;
   double tip_friction = 0.0;  // mu_t
   std::vector<ParticleSpecies> species;
-  std::vector<StickyPad> pads{};  // the first of those that overlap counts
+  std::vector<StickyPad> pads{};  // pads; where several overlap, the first counts
   double heap_looks = kHeapLooks;
 };
 
@@ -102,7 +102,7 @@ struct PushTick {
   Force normal;      // N of that particle; negative: the tip pulls it
   Force threshold;   // lateral force at which it starts or keeps moving
   Force gave_at;     // force on the sphere that last yielded, at that moment
-  Force goes_on_at;  // force that moves that sphere since
+  Force goes_on_at;  // force that has moved that sphere since
   Energy given;      // energy from the hand since the start, or since hold_over(), at a frozen tip in each sub-step: an
                      // upper bound
   Energy work;       // work of the hand since the start, by the force at both ends of each sub-step

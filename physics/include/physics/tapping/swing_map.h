@@ -26,9 +26,6 @@ class SwingMap {
  public:
   SwingMap(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever);
 
-  // The stable swing at rest near a point as TappingOscillator::place() takes it; empty: Newton's method finds none.
-  std::optional<DirectSwing> rest_near(const TapState& point, Length z);
-
   // Stable swings at rest to which a grid of starts leads, except those of `known`; the smallest amplitude first. Takes
   // some 0.2 to 3 s.
   std::vector<DirectSwing> stable_beside(std::span<const TapState> known, Length z);

@@ -128,7 +128,7 @@ class TapEnvelope {
   struct Pace {
     double drive = 0, detuned = 0, damping = 0;  // a/2r, (r^2 - 1)/2r, 1/2Q
     double by_stored = 0, by_turn = 0;           // 1/kr, 1/(2 pi k r)
-    double by_row = 0, by_nudge = 0;             // 1/m: of the rows' distance, and of a small part of it
+    double by_row = 0, by_nudge = 0;             // rates by the rows' distance and by a small part of it, 1/m
     double slowest = 0;                          // inverse of the longest step
   };
 

@@ -67,7 +67,7 @@ class TapTable {
 
   DrivenLever lever_;
   TappingCurve walk_;
-  std::vector<Node> attracted_, repelled_;  // from the lowest Z up
+  std::vector<Node> attracted_, repelled_;  // nodes from the lowest Z up
   std::optional<TapLoop> loop_;
   double falls_m_ = 0, leaves_m_ = 0;  // below: a swing falls into the repelled branch; above: it leaves it
   Length lowest_;

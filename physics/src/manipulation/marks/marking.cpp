@@ -41,7 +41,7 @@ void validate(const SoftSurface& surface) {
 
 void validate_marking_tip(const SphereCone& tip) {
   require_range("tip_radius", tip.radius, Length(1e-9), Length(1e-6), kLengthUnits);
-  require_range("half_angle", tip.half_angle_rad, kSteepest, kWidestCone, kPlainNumber);
+  require_angle("half_angle", tip.half_angle_rad, kSteepest, kWidestCone);
 }
 
 TipOutline::TipOutline(const SphereCone& tip) noexcept

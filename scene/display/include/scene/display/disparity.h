@@ -23,7 +23,7 @@ Disparity disparity_at(double wall_distance_m, double ipd_m, double depth_m);
 // Depths from the eyes within which disparities stay below a limit.
 struct ComfortZone {
   double nearest_m = 0;
-  double farthest_m = 0;  // inf: no limit
+  double farthest_m = 0;  // farthest comfortable depth; inf: no limit
 };
 ComfortZone comfort_zone(double wall_distance_m, double ipd_m, double largest_disparity_rad);
 

@@ -31,7 +31,7 @@ struct WarpMesh {
   }
 };
 
-inline constexpr std::uint32_t kMostMeshNodes = 512;  // in each direction
+inline constexpr std::uint32_t kMostMeshNodes = 512;  // nodes in each direction
 
 // Reads and checks a mesh in the text format of P. Bourke ("Mesh format for image warping", 2006), of type 2. x ranges
 // from -aspect to aspect: `aspect` is that of the output or, if unknown, the mesh's largest x. The error names file and

@@ -27,7 +27,7 @@ struct Pattern {
   std::vector<Pad> pads;
 };
 Pattern pattern_of(const ParticleSet& set);         // in the frame of the file
-Pattern shared_pattern_of(const ParticleSet& set);  // in that of a shared scene
+Pattern shared_pattern_of(const ParticleSet& set);  // pattern in the frame of a shared scene
 
 // Particles that are pinned stay out. `places` are those of all particles, in the frame of the pattern. Empty without
 // targets, or if there are more of them than particles that can be moved.

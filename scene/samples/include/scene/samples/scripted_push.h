@@ -33,7 +33,7 @@ struct ScriptedPush {
   std::size_t ticks = 0, lagging = 0;
   double least_margin_j = 0.0;                       // least certificate of all ticks
   bool more_changes = false;                         // more than `changes` has
-  std::vector<PushMoment> samples;                   // evenly in time, with the last
+  std::vector<PushMoment> samples;                   // moments at equal intervals, with the last
   std::vector<PushMoment> changes;                   // ticks in which state or particle changes
   std::vector<PushMoment> ends;                      // end of each move and its wait
   std::vector<physics::ParticlePlace> at;            // places of the particles at the end, in the frame of the scanner

@@ -259,7 +259,7 @@ struct TipSample {
   std::int64_t time_ns = 0;
   std::uint64_t tick = 0;
   Tip tip{};
-  double hand_height_m = 0;  // along the sample's normal, device frame
+  double hand_height_m = 0;  // height along the sample's normal, device frame
   double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
   ServoState servo_state = ServoState::Disarmed;
   physics::Phase phase = physics::Phase::WaitForLift;

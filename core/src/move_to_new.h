@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace afm::core {
+
+// Moves a file without replacing one; on a file system that cannot refuse by itself, after a look. Returns 0 or errno:
+// EEXIST if there is one.
+int move_to_new(const std::string& from, const std::string& to);
+
+}  // namespace afm::core
