@@ -67,13 +67,13 @@ std::optional<HeldSwing> first_held(AveragedFlow& flow, double contact_m, double
 }  // namespace
 
 TappingDetector::TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
-                                 Length setpoint, std::shared_ptr<const TapTable> rests)
-    : surface_(surface), lever_(lever), rests_(std::move(rests)) {
+                                 Length setpoint, Harmonics harmonics, std::shared_ptr<const TapTable> rests)
+    : surface_(surface), lever_(lever), harmonics_(harmonics), rests_(std::move(rests)) {
   const bool averages = lever.quality_factor >= AveragedFlow::kLeastQuality;
   if (!averages && !rests_) rests_ = std::make_shared<const TapTable>(surface, lever);
   hold(setpoint);
   if (averages) {
-    AveragedFlow flow(surface, lever, AveragedFlow::Search::AsFelt);
+    AveragedFlow flow = averaged_flow();
     envelope_ = std::make_unique<TapEnvelope>(flow, surface->contact_height());
   } else {
     envelope_ = std::make_unique<TapEnvelope>(rests_);
@@ -85,6 +85,7 @@ TappingDetector::~TappingDetector() = default;
 TappingDetector::TappingDetector(const TappingDetector& other)
     : surface_(other.surface_),
       lever_(other.lever_),
+      harmonics_(other.harmonics_),
       rests_(other.rests_),
       setpoint_m_(other.setpoint_m_),
       engaged_(other.engaged_),
@@ -92,6 +93,12 @@ TappingDetector::TappingDetector(const TappingDetector& other)
 TappingDetector::TappingDetector(TappingDetector&& other) noexcept = default;
 TappingDetector& TappingDetector::operator=(const TappingDetector& other) { return *this = TappingDetector(other); }
 TappingDetector& TappingDetector::operator=(TappingDetector&& other) noexcept = default;
+
+// At the resonance every image is that of earlier versions.
+AveragedFlow TappingDetector::averaged_flow() const {
+  const bool exact = harmonics_ == Harmonics::OfTheDrive && lever_.ratio != 1.0;
+  return {surface_, lever_, exact ? AveragedFlow::Search::Exact : AveragedFlow::Search::AsFelt};
+}
 
 void TappingDetector::hold(Length setpoint) {
   engaged_ = find_setpoint(setpoint);
@@ -126,7 +133,7 @@ TappingDetector::Engaged TappingDetector::find_setpoint(Length setpoint) const {
   if (rests_) {
     held = first_held(*rests_, setpoint.si);
   } else {
-    AveragedFlow flow(surface_, lever_, AveragedFlow::Search::AsFelt);
+    AveragedFlow flow = averaged_flow();
     held = first_held(flow, surface_->contact_height().si, setpoint.si);
   }
   if (!held) throw UnphysicalValue("setpoint", "no height of the lever has this amplitude over the sample");

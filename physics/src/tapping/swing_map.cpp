@@ -68,36 +68,52 @@ std::optional<DirectSwing> SwingMap::settled_near(Point at, Length z) {
   return swing;
 }
 
+// For where the steps of direct integration make the map uneven, as under a soft lever deep in the sample, so that
+// Newton's method does not end: the point at which the swing itself rests.
+std::optional<SwingMap::Point> SwingMap::rest_of(Point at, Length z, std::span<const Point> known) {
+  constexpr double kNear = 0.03, kRests = 1e-4;  // shares of the free amplitude
+  const auto is_near = [&](Point other) { return std::abs(other - at) < kNear * a0_m_; };
+  if (std::any_of(known.begin(), known.end(), is_near)) return std::nullopt;
+  const Point rest = after(at, z, static_cast<int>(std::ceil(3.0 * tip_.lever().quality_factor)));
+  const bool rests = is_near(rest) && std::abs(after(rest, z) - rest) < kRests * a0_m_;
+  return rests ? std::optional(rest) : std::nullopt;
+}
+
 std::vector<SwingMap::Point> SwingMap::stable_points(Length z) {
   constexpr int kAmplitudes = 8, kPhases = 8, kRounds = 8;
-  constexpr int kShares = 16;
-  constexpr double kLeastShare = 0.86, kShareStep = 0.0125;  // shares of the height
-  constexpr double kNear = 0.03, kSame = 1e-3;               // shares of the free amplitude
+  constexpr double kLeastShare = 0.86, kMostShare = 1.4, kShareStep = 0.0125;  // shares of the height
+  constexpr double kNear = 0.03, kSame = 1e-3, kStays = 0.1;                   // shares of the free amplitude
   const int swings = static_cast<int>(std::ceil(0.2 * tip_.lever().quality_factor));
   std::vector<Point> found;
   const auto look = [&](Point at) {
     const auto fixed = fixed_near(at, z);
     const auto same = [&](Point other) { return std::abs(other - fixed->at) < kSame * a0_m_; };
     if (fixed && fixed->stable && std::none_of(found.begin(), found.end(), same)) found.push_back(fixed->at);
-    return fixed;
+    return fixed && fixed->stable && std::abs(fixed->at - at) < kNear * a0_m_;
   };
-  for (int i = 0; i < kShares && z.si > 0.0; ++i) {
+  const auto look_at_rest = [&](Point at) {
+    if (const auto rest = rest_of(at, z, found)) found.push_back(*rest);
+  };
+  for (double share = kLeastShare; z.si > 0.0 && share < kMostShare && share * z.si < a0_m_; share += kShareStep) {
     // swings that the sample repels, with the phase at which they lose nothing or something
-    const double amplitude = z.si * (kLeastShare + kShareStep * i);
+    const double amplitude = z.si * share;
     for (const double loss : {1.0, 1.2}) {
-      const double sine = std::min(1.0, loss * amplitude / a0_m_);
-      (void)look(std::polar(amplitude, std::asin(sine)));
+      const Point at = std::polar(amplitude, std::asin(std::min(1.0, loss * amplitude / a0_m_)));
+      if (look(at)) continue;
+      const Point later = after(at, z, 5 * swings);
+      if (std::abs(later - at) < kStays * a0_m_) look_at_rest(later);
     }
   }
   for (int i = 0; i < kAmplitudes * kPhases; ++i) {
     const int ring = i / kPhases;
     Point at = std::polar(a0_m_ * (ring + 1) / kAmplitudes,
                           2.0 * std::numbers::pi * (i % kPhases + 0.5 * (ring % 2)) / kPhases);
-    for (int round = 0; round < kRounds; ++round) {
-      const auto fixed = look(at);
-      if (fixed && fixed->stable && std::abs(fixed->at - at) < kNear * a0_m_) break;
-      at = after(at, z, swings);
+    bool ends = false;
+    for (int round = 0; round < kRounds && !ends; ++round) {
+      ends = look(at);
+      if (!ends) at = after(at, z, swings);
     }
+    if (!ends) look_at_rest(at);
   }
   return found;
 }

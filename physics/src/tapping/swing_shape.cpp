@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace afm::physics {
 
@@ -26,6 +27,17 @@ double SwingShape::bend(double angle) const noexcept {
 void SwingShape::straighten() noexcept {
   old_count_ = cursor_ = 0;
   p_ = c_ = rate_squares_ = 0.0;
+  straight_ = {};
+}
+
+// Mean and first harmonic over both ways.
+SwingShape::Straight SwingShape::straight_part_of(const Nodes& nodes) const noexcept {
+  Straight straight;
+  for (std::size_t i = 0; i < count_; ++i) {
+    straight.mean += nodes[i].force / std::numbers::pi;
+    straight.cosine += 2.0 * nodes[i].force * nodes[i].of_angle.cosine / std::numbers::pi;
+  }
+  return straight;
 }
 
 double SwingShape::finish() noexcept {
@@ -35,10 +47,16 @@ double SwingShape::finish() noexcept {
   const auto end = newest.begin() + static_cast<std::ptrdiff_t>(count_);
   if (!std::is_sorted(newest.begin(), end, before)) std::sort(newest.begin(), end, before);
   double p = 0.0, c = 0.0;
-  for (std::size_t i = 0; i < count_; ++i) {
-    p += response_.p_of(newest[i].force, newest[i].angle, newest[i].of_angle, newest[i].turned);
-    c += newest[i].force * newest[i].of_angle.cosine;
-  }
+  const auto sum_up = [&] {
+    p = c = 0.0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Node& node = newest[i];
+      const double force = node.force - node.weight * straight_.at(node.of_angle);
+      p += response_.p_of(force, node.angle, node.of_angle, node.turned);
+      c += force * node.of_angle.cosine;
+    }
+  };
+  sum_up();
   const double p_more = p - p_, c_more = c - c_;
   double weight = 0.0, square = 0.0;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -46,6 +64,10 @@ double SwingShape::finish() noexcept {
     const double more = response_.bend_of_sums(p_more, c_more, node.angle, node.of_angle, node.turned);
     weight += std::abs(node.force);
     square += std::abs(node.force) * more * more;
+  }
+  if (exact_) {
+    straight_ = straight_part_of(newest);
+    sum_up();
   }
   p_ = p;
   c_ = c;

@@ -17,14 +17,17 @@ namespace afm::physics {
 // with F the sample's force, averaged over the way down and the way up. y is a sum of products of P, C and functions of
 // t (tapping/harmonic_response.h), and of an integral from 0 to t, large in a stiff contact, which follows from what
 // the tip has met before. So a quadrature in the order of the angles finds the bend as it goes, and only P and C have
-// to be repeated.
+// to be repeated. The sum from node to node is off by the square of their distance, too much for a tip that is held or
+// drawn for the whole swing: so it is that of F less its mean and first harmonic in the quadrature before, which bend
+// nothing.
 //
 // A quadrature calls begin(), then bend_now() and add() for each node in rising order, then finish(). One thread; does
 // not allocate.
 class SwingShape {
  public:
-  // `halves`: of a node's force half lies before it, for the rate; without, the rate is off by up to that half.
-  explicit SwingShape(const HarmonicResponse& response, bool halves = true) : response_(response), halves_(halves) {}
+  // `exact`: less the mean and the first harmonic; and half of a node's force lies before it, without which the rate is
+  // off by up to that half.
+  explicit SwingShape(const HarmonicResponse& response, bool exact = true) : response_(response), exact_(exact) {}
 
   const HarmonicResponse& response() const noexcept { return response_; }
 
@@ -47,12 +50,12 @@ class SwingShape {
   void add(double angle, const Turned& of_angle, const Turned& turned, double weight, double force,
            double bend) noexcept {
     if (count_ == kMostNodes) return;
-    const double here = halves_ ? 0.5 * weight * force : 0.0;
+    const double bending = weight * (force - straight_.at(of_angle)), here = exact_ ? 0.5 * bending : 0.0;
     const double rate = response_.rate(p_, c_, angle, of_angle, turned, before_, here);
     rate_squares_ += weight * rate * rate;
-    before_.cosine += weight * force * turned.cosine;
-    before_.sine += weight * force * turned.sine;
-    nodes_[filling_][count_++] = {angle, of_angle, turned, weight * force, bend};
+    before_.cosine += bending * turned.cosine;
+    before_.sine += bending * turned.sine;
+    nodes_[filling_][count_++] = {angle, weight, of_angle, turned, weight * force, bend};
   }
 
   // Mean square of dy/dt over the newest quadrature, in m^2: half of the sum of n^2 A_n^2 over the harmonics n > 1.
@@ -62,8 +65,14 @@ class SwingShape {
   double finish() noexcept;
 
  private:
+  // A force that bends nothing, in N.
+  struct Straight {
+    double mean = 0, cosine = 0;
+
+    double at(const Turned& of_angle) const noexcept { return mean + cosine * of_angle.cosine; }
+  };
   struct Node {
-    double angle = 0;
+    double angle = 0, weight = 0;
     Turned of_angle{0.0, 0.0}, turned{0.0, 0.0};
     double force = 0, bend = 0;
   };
@@ -71,10 +80,13 @@ class SwingShape {
   static constexpr std::size_t kMostNodes = 512;
   using Nodes = std::array<Node, kMostNodes>;
 
+  Straight straight_part_of(const Nodes& nodes) const noexcept;
+
   HarmonicResponse response_;
-  bool halves_;
-  double p_ = 0.0, c_ = 0.0;
-  Turned before_{0.0, 0.0};    // integrals of F times the cosine and sine of the turned angle, up to the newest node
+  bool exact_;
+  Straight straight_;          // part of F in the complete quadrature that bends nothing; 0 unless exact
+  double p_ = 0.0, c_ = 0.0;   // P and C of the rest of F
+  Turned before_{0.0, 0.0};    // integrals of the rest times cosine and sine of the turned angle, up to the newest node
   double rate_squares_ = 0.0;  // integral of (dy/dt)^2 up to it
   std::array<Nodes, 2> nodes_;
   std::size_t filling_ = 0;  // the newer quadrature; the other one is complete

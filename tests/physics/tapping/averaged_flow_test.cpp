@@ -180,27 +180,41 @@ TEST(AveragedFlow, RelaxesWithTwiceTheQualityFactorUnderAConservativeForce) {
   EXPECT_NEAR(area() / before, std::exp(-0.5), 2e-3);
 }
 
+// Stable states at a height, compared with direct integration that begins in them.
+int compare_with_direct(const TappedSample& sample, Length z) {
+  AveragedFlow flow(sample.surface(), sample.lever());
+  TappingOscillator tip(sample.surface(), sample.lever());
+  int compared = 0;
+  for (const RestingTap& tap : flow.resting_at(z)) {
+    if (!tap.stable) continue;
+    const double x = tap.deflection.si + tap.state.amplitude.si * std::cos(tap.state.phase);
+    const double v = tap.state.amplitude.si * std::sin(tap.state.phase);
+    tip.place(z, {Length(std::hypot(x, v)), std::atan2(v, x)});
+    const TapState direct = resting_tap(tip.settle()).state;
+    EXPECT_NEAR(nm_of(tap.state.amplitude), nm_of(direct.amplitude), 1e-3 * nm_of(direct.amplitude))
+        << sample.ratio << ", z " << nm_of(z);
+    EXPECT_NEAR(degrees_of(tap.state.phase), degrees_of(direct.phase), 0.2) << sample.ratio << ", z " << nm_of(z);
+    ++compared;
+  }
+  return compared;
+}
+
 // The harmonics answered as at the resonance: amplitudes were off by 0.8 % with a drive 6 % above it
 TEST(AveragedFlow, RestsWhereDirectIntegrationDoesBesideTheResonance) {
   for (const double ratio : {0.8, 0.94, 1.06}) {
-    const TappedSample sample{.ratio = ratio};
-    AveragedFlow flow(sample.surface(), sample.lever());
-    TappingOscillator tip(sample.surface(), sample.lever());
-    for (const Length z : {18_nm, 12_nm}) {
-      int compared = 0;
-      for (const RestingTap& tap : flow.resting_at(z)) {
-        if (!tap.stable) continue;
-        const double x = tap.deflection.si + tap.state.amplitude.si * std::cos(tap.state.phase);
-        const double v = tap.state.amplitude.si * std::sin(tap.state.phase);
-        tip.place(z, {Length(std::hypot(x, v)), std::atan2(v, x)});
-        const TapState direct = resting_tap(tip.settle()).state;
-        EXPECT_NEAR(nm_of(tap.state.amplitude), nm_of(direct.amplitude), 1e-3 * nm_of(direct.amplitude)) << ratio;
-        EXPECT_NEAR(degrees_of(tap.state.phase), degrees_of(direct.phase), 0.2) << ratio;
-        ++compared;
-      }
-      EXPECT_GE(compared, 1) << ratio << " z " << nm_of(z);
-    }
+    for (const Length z : {18_nm, 12_nm}) EXPECT_GE(compare_with_direct({.ratio = ratio}, z), 1) << ratio;
   }
+}
+
+// The sum of the bend from node to node took a force that holds the tip all the time for a bend: off by 3.9 % in a tip
+// that sticks to a soft sample, and by 0.6 % where the sample draws a tip that hardly swings.
+TEST(AveragedFlow, RestsWhereDirectIntegrationDoesUnderAForceThatNeverEnds) {
+  const TappedSample sticks{
+      .k = 6.912423, .q = 183.161061, .a0_nm = 6.679406, .r_nm = 26.519704, .h_zj = 161.873579, .e_gpa = 0.089579};
+  EXPECT_EQ(compare_with_direct(sticks, Length(3.036275e-9)), 2);
+  const TappedSample drawn{
+      .k = 0.114145, .q = 184.805393, .a0_nm = 5.360939, .r_nm = 14.720906, .h_zj = 31.428462, .e_gpa = 42.875364};
+  EXPECT_EQ(compare_with_direct(drawn, Length(1.931768e-9)), 2);
 }
 
 }  // namespace averaged_flow_test

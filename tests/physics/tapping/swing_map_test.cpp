@@ -58,6 +58,20 @@ TEST(SwingMap, FindsTheRepulsiveStateOfASoftLeverThatAveragesLack) {
   EXPECT_GT(beside[0].averages.contact_share, 0.02);
 }
 
+// A soft lever deep in a soft sample: the one state of 20 set-ups with 1000 starts each that neither averages nor
+// Newton's method found, for the steps of direct integration hold the swing.
+TEST(SwingMap, FindsAStateThatFewStartsReach) {
+  const TappedSample deep{
+      .k = 0.505941, .q = 443.426796, .a0_nm = 46.006653, .r_nm = 17.014937, .h_zj = 189.418908, .e_gpa = 0.178370};
+  constexpr Length kHeight{32.15393633345716e-9};
+  SwingMap map(deep.surface(), deep.lever());
+  const std::vector<DirectSwing> beside = map.stable_beside(averaged_at(deep, kHeight), kHeight);
+  ASSERT_EQ(beside.size(), 1U);
+  // by direct integration with sixteen times the steps
+  EXPECT_NEAR(nm_of(beside[0].state.amplitude), 40.5428, 1e-3);
+  EXPECT_NEAR(degrees_of(beside[0].state.phase), 62.506, 0.1);
+}
+
 // A base below the surface presses the tip in: no swing is as wide as its height is negative.
 TEST(SwingMap, FindsNoSwingOfANegativeWidth) {
   const TappedSample sample;

@@ -76,10 +76,13 @@ struct RestCase {
   std::size_t elsewhere = 0;  // number of states that direct integration leaves
   struct Pair {
     TapState averaged, enveloped, direct;
-    bool sticks = false;  // in contact all the time
   };
   std::vector<Pair> pairs{};
 };
+
+// Bounds of the criterion: share of the amplitude, degrees.
+constexpr Apart kAtRest{3e-3, 0.5};
+bool beyond(const Apart& from, const Apart& bound) { return from.share > bound.share || from.degrees > bound.degrees; }
 
 // The point at the drive's angle of zero of a swing about its mean deflection, which is large where a tip sticks.
 TapState beginning_of(const RestingTap& tap) {
@@ -99,13 +102,21 @@ void rest(RestCase& one) {
     if (!roots[i].stable) continue;
     tip.place(one.z, beginning_of(roots[i]));
     (void)tip.settle();
-    const TapState direct = resting_tap(tip.settle()).state;
+    TapState direct = resting_tap(tip.settle()).state;
     // another state, also one that is not among the roots
     if (nearest_root(roots, direct) != static_cast<int>(i) || apart(direct, roots[i].state).degrees > 10.0) {
       ++one.elsewhere;
       continue;
     }
-    RestCase::Pair pair{roots[i].state, roots[i].state, direct, roots[i].averages.contact_share > 0.99};
+    // usual steps hold a soft lever at phases of their own, up to 0.6 degrees off
+    constexpr int kFiner = 4 * TappingOscillator::kUsualSteps;
+    if (beyond(apart(direct, roots[i].state), kAtRest)) {
+      TappingOscillator finer(surface, one.sample.lever(), kFiner);
+      finer.place(one.z, beginning_of(roots[i]));
+      (void)finer.settle();
+      direct = resting_tap(finer.settle()).state;
+    }
+    RestCase::Pair pair{roots[i].state, roots[i].state, direct};
     // for a hand a swing of less than a twentieth of the free one is stopped
     if (one.with_envelope && roots[i].state.amplitude > 0.05 * one.sample.lever().free_amplitude) {
       if (!envelope) envelope.emplace(flow, surface->contact_height());
@@ -137,18 +148,12 @@ TEST(TappingDeep, TheEnvelopeRestsWhereDirectIntegrationDoes) {
       const Apart flow = apart(pair.averaged, pair.direct), envelope = apart(pair.enveloped, pair.direct);
       most_share = std::max(most_share, envelope.share);
       most_degrees = std::max(most_degrees, envelope.degrees);
-      outside += flow.share > 3e-3 || flow.degrees > 0.5 ? 1U : 0U;
-      outside_envelope += envelope.share > 3e-3 || envelope.degrees > 0.5 ? 1U : 0U;
-      // a swing of less than a twentieth of the free one, between attraction and contact, is off by up to 1 %
-      const bool small = pair.direct.amplitude < 0.05 * one.sample.lever().free_amplitude;
-      // one that sticks is a spring in the averages, which a soft contact is not: up to 4 %
-      EXPECT_LE(envelope.share, pair.sticks ? 5e-2
-                                : small     ? 1e-2
-                                            : 3e-3)
-          << text_of(one.sample) << " z " << nm_of(one.z) << " A " << nm_of(pair.direct.amplitude) << " flow "
-          << flow.share;
-      EXPECT_LE(envelope.degrees, 0.5) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
-                                       << nm_of(pair.direct.amplitude) << " flow " << flow.degrees;
+      outside += beyond(flow, kAtRest) ? 1U : 0U;
+      outside_envelope += beyond(envelope, kAtRest) ? 1U : 0U;
+      EXPECT_LE(envelope.share, kAtRest.share) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
+                                               << nm_of(pair.direct.amplitude) << " flow " << flow.share;
+      EXPECT_LE(envelope.degrees, kAtRest.degrees) << text_of(one.sample) << " z " << nm_of(one.z) << " A "
+                                                   << nm_of(pair.direct.amplitude) << " flow " << flow.degrees;
     }
   }
   RecordProperty("compared", std::to_string(compared));

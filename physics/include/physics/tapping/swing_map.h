@@ -39,6 +39,7 @@ class SwingMap {
   };
   Point after(Point point, Length z, int swings = 1);
   std::optional<Fixed> fixed_near(Point at, Length z);
+  std::optional<Point> rest_of(Point at, Length z, std::span<const Point> known);
   std::vector<Point> stable_points(Length z);  // fixed points to which the grid leads, each once
   std::optional<DirectSwing> settled_near(Point at, Length z);
 
