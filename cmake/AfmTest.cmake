@@ -20,18 +20,17 @@ pkg_check_modules(UMOCKDEV REQUIRED IMPORTED_TARGET umockdev-1.0)
 set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_terminals.sh ${AFM_UMOCKDEV_WRAPPER})
 
 # afm_test(NAME folder.subject SOURCES ... LIBRARIES ... LABELS ... [NEEDS target ...] [TIMEOUT seconds] [OPTIMISED] [SERIAL] [DRAWS]
-#          [CASES | SUITES] [DEEP filter] [ONLY_DEEP filter] [PRETENDED_DEVICES])
+#          [CASES | SUITES] [DEEP pattern ...] [ONLY_DEEP pattern ...] [PRETENDED_DEVICES])
 # One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
 # folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Three cases run
 # side by side, two under AddressSanitizer; nothing runs beside one that is SERIAL, as everything of label realtime is. Those of
 # label hand wait more than they compute: scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the
 # place of two and begins before those that do not, and one that measures a speed is SERIAL.
-# A filter is one of GoogleTest's patterns, or several with colons between them. The tests that a pattern of DEEP names draw more in
-# a case of their own, NAME.deep.PATTERN of label deep (tests/support/deep.h). Those that ONLY_DEEP names (suites with SUITES) are left
-# out of the usual run and have the label deep beside their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES
-# runs it under umockdev.
+# Patterns are GoogleTest's. The tests that a pattern of DEEP names draw more in a case of their own, NAME.deep.PATTERN of label deep
+# (tests/support/deep.h). Those that ONLY_DEEP names (suites with SUITES) are left out of the usual run and have the label deep beside
+# their own. NEEDS names the programs that the test starts. PRETENDED_DEVICES runs it under umockdev.
 function(afm_test)
-  cmake_parse_arguments(T "OPTIMISED;SERIAL;DRAWS;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT;DEEP" "SOURCES;LIBRARIES;LABELS;NEEDS;ONLY_DEEP" ${ARGN})
+  cmake_parse_arguments(T "OPTIMISED;SERIAL;DRAWS;CASES;SUITES;PRETENDED_DEVICES" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS;NEEDS;DEEP;ONLY_DEEP" ${ARGN})
   if(T_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "afm_test(${T_NAME}): unknown: ${T_UNPARSED_ARGUMENTS}")
   endif()
@@ -79,20 +78,19 @@ function(afm_test)
   endif()
   afm_compile_together(${target})
 
-  string(REPLACE ":" ";" deep "${T_DEEP}")  # filters of the cases NAME.deep.FILTER
-  set(usual "")                             # the filter of the usual run
+  set(deep ${T_DEEP})  # patterns of the cases NAME.deep.PATTERN
+  list(JOIN T_ONLY_DEEP ":" only_deep)
+  set(usual "")        # the filter of the usual run
   if(T_ONLY_DEEP AND NOT T_SUITES)
-    string(REPLACE ":" ";" only_deep "${T_ONLY_DEEP}")
-    list(JOIN only_deep ":" usual)
-    set(usual --gtest_filter=-${usual})
+    set(usual --gtest_filter=-${only_deep})
     if(NOT T_CASES)
-      list(APPEND deep ${only_deep})
+      list(APPEND deep ${T_ONLY_DEEP})
     endif()
   endif()
-  foreach(filter IN LISTS deep)
-    string(REPLACE "/" "." case "${filter}")
+  foreach(pattern IN LISTS deep)
+    string(REPLACE "/" "." case "${pattern}")
     string(REGEX REPLACE "\\.?[*]$|[*]\\.?" "" case "${case}")
-    add_test(NAME ${T_NAME}.deep.${case} COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${filter})
+    add_test(NAME ${T_NAME}.deep.${case} COMMAND ${wrapper} $<TARGET_FILE:${target}> --gtest_filter=${pattern})
     set_tests_properties(${T_NAME}.deep.${case} PROPERTIES LABELS deep TIMEOUT 900 RUN_SERIAL ${deep_serial} ENVIRONMENT AFM_DEEP=1
                          FAIL_REGULAR_EXPRESSION "Running 0 tests")
   endforeach()
@@ -104,9 +102,9 @@ function(afm_test)
   if(T_CASES)
     set(discovery NO_PRETTY_VALUES TEST_PREFIX "${folder}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
     if(T_ONLY_DEEP)
-      gtest_discover_tests(${target} ${discovery} TEST_LIST ${target}_deep TEST_FILTER "${T_ONLY_DEEP}"
+      gtest_discover_tests(${target} ${discovery} TEST_LIST ${target}_deep TEST_FILTER "${only_deep}"
                            PROPERTIES LABELS "deep\;${T_LABELS}" TIMEOUT ${T_TIMEOUT} RUN_SERIAL ${deep_serial})
-      list(APPEND discovery TEST_FILTER "-${T_ONLY_DEEP}")
+      list(APPEND discovery TEST_FILTER "-${only_deep}")
     endif()
     gtest_discover_tests(${target} ${discovery} PROPERTIES ${properties})
   elseif(T_SUITES)

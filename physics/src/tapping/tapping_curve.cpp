@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "physics/quantity_text.h"
 #include "tapping/tap_walk.h"
 
 namespace afm::physics {
@@ -32,7 +33,7 @@ void require_length(const DrivenLever& lever, const TapPath& path, TapMethod met
   double swings = rows * swings_a_row;
   if (path.speed) {
     if (!(path.speed->si > 0.0 && isfinite(*path.speed))) {
-      throw std::invalid_argument("a speed of " + std::to_string(path.speed->si) + " m/s is not positive");
+      throw std::invalid_argument("a speed of " + format_quantity(*path.speed, kVelocityUnits) + " is not positive");
     }
     const Time duration = 2.0 * (path.plan.from - path.plan.to) / *path.speed;
     const double steps = method == TapMethod::Direct ? duration * (lever.ratio * lever.resonance)
