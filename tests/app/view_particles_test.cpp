@@ -48,6 +48,14 @@ class ViewParticles : public ::testing::Test {
     ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
   }
 
+  // With the particles of row.toml, recorded in the folder `kept`.
+  support::LiveProgram recorded_view() const {
+    return {
+        {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width",
+         "320", "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
+        display_.name()};
+  }
+
   // Drags the hand by this in all, in steps of a pixel with pauses, or at once.
   void drag(double right_m, double up_m, int steps = 1) const {
     const auto pixels = [](double m) { return std::lround(m / kHandPerPixel); };
@@ -96,10 +104,7 @@ std::size_t count(const servo::RecordedSession& session, physics::EventKind kind
 
 TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   folder_.write("row.toml", three_in_a_row());
-  support::LiveProgram view(
-      {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width", "320",
-       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
-      display_.name());
+  support::LiveProgram view = recorded_view();
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   xdotool("search --sync --name TouchAFM");
   xdotool("key BackSpace");
@@ -156,10 +161,7 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
 
 TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
   folder_.write("row.toml", three_in_a_row());
-  support::LiveProgram view(
-      {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width", "320",
-       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
-      display_.name());
+  support::LiveProgram view = recorded_view();
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   xdotool("search --sync --name TouchAFM");
   const auto press = [&](const char* key, const char* said) {
@@ -200,10 +202,7 @@ TEST_F(ViewParticles, AreDarkFromTheFirstTouchUntilABlindTaskIsDone) {
   folder_.write("row.toml", three_in_a_row() +
                                 "[[target]]\nx = \"-74 nm\"\ny = \"0 nm\"\n"
                                 "[task]\nkind = \"line\"\nparticle = 1\ntarget = 1\n");
-  support::LiveProgram view(
-      {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width", "320",
-       "--frame-rate", "12", "--servo", support::servo_mode(), "--record", folder_.file("kept"), "--validate"},
-      display_.name());
+  support::LiveProgram view = recorded_view();
   ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
   xdotool("search --sync --name TouchAFM");
   xdotool("key 1");
