@@ -350,9 +350,10 @@ TEST(ParticlesCommand, WritesWithInk) {
 
 TEST(ParticlesCommand, RefusesWithTheReasonAndTheExitCode) {
   expect_refusal(particles(""), 2, "file");
-  expect_refusal(particles("silver-row"), 2,
-                 "unknown set of particles \"silver-row\"; choose gold-row, islands, latex-letter, pick-and-place, "
-                 "scratch-pmma, sticky-tip, sweep-gold, tube-and-electrodes, write-afm, write-ink");
+  expect_refusal(
+      particles("silver-row"), 2,
+      "unknown set of particles \"silver-row\"; choose blind-line, gold-row, islands, latex-letter, pick-and-place, "
+      "scratch-pmma, sticky-tip, sweep-gold, threshold-by-feel, tube-and-electrodes, write-afm, write-ink");
   expect_refusal(particles("/no/such.toml"), 3, "/no/such.toml");
   expect_refusal(particles("gold-row --rate 4"), 2, "kHz");
   expect_refusal(particles("islands --level 1"), 2, "flat islands");
