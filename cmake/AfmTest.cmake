@@ -24,7 +24,7 @@ set(AFM_WITH_PRETENDED_DEVICES ${CMAKE_SOURCE_DIR}/tests/input/with_pseudo_termi
 # One program, test_folder_subject, of sources that are compiled together: the names in them must differ. It is one case of CTest,
 # folder.subject. With CASES every TEST in it is one, folder.Suite.Case, and with SUITES every suite, folder.Suite. Three cases run
 # side by side, two under AddressSanitizer; nothing runs beside one that is SERIAL, as everything of label realtime is. Those of
-# label hand wait more than they compute: scripts/run-tests runs them after all others, four at a time; one that DRAWS takes the
+# label hand wait more than they compute: scripts/run-tests runs them after all others, three at a time; one that DRAWS takes the
 # place of two and begins before those that do not, and one that measures a speed is SERIAL.
 # Patterns are GoogleTest's. The tests that a pattern of DEEP names draw more in a case of their own, NAME.deep.PATTERN of label deep
 # (tests/support/deep.h). Those that ONLY_DEEP names (suites with SUITES) are left out of the usual run and have the label deep beside
