@@ -120,7 +120,7 @@ TEST(AnalyseCommand, PrintsNoControlCharacterOfAName) {
     const ProgramResult made = run_touchafm(command);
     EXPECT_EQ(made.exit_code, 0) << made.err;
     EXPECT_THAT(made.out + made.err, testing::Not(HasSubstr("\x1b")));
-    EXPECT_THAT(made.out + made.err, testing::Not(HasSubstr("\nzz"))) << "no line of its own";
+    EXPECT_THAT(made.out + made.err, testing::Not(HasSubstr("\nzz"))) << "the name breaks the line";
   }
 }
 
