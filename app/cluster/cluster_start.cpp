@@ -146,8 +146,8 @@ core::Result<std::unique_ptr<ClusterMaster>> start_cluster(const ClusterOptions&
   auto opened = open_master(options, files, choice, program, stage, clock);
   if (!opened) return tl::unexpected(opened.error());
   const cluster::ClusterNetwork& network = opened->network;
-  core::log_line(fmt::format("cluster: {} nodes, interface {}, domain {}, {}", stage.wall.nodes.size(),
-                             network.interface_address, network.domain,
+  core::log_line(fmt::format("cluster: session {:x}, {} nodes, interface {}, domain {}, {}", opened->link->session(),
+                             stage.wall.nodes.size(), network.interface_address, network.domain,
                              network.peers.empty() ? "multicast" : "no multicast"));
   auto master = std::make_unique<ClusterMaster>(std::move(opened->link), stage.wall, stage.wall_scene.contact_m(),
                                                 stage.materials.materials.size(), clock);

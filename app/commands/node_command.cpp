@@ -155,8 +155,8 @@ core::Result<std::unique_ptr<NodeStage>> show_wall(const NodeOptions& options, N
   auto display = ViewDisplay::open(shown.stage, display_options, nullptr, clock);
   if (!display) return tl::unexpected(display.error());
   earlier.reset();
-  core::log_line(
-      fmt::format("cluster: node {} of the wall, {} of its outputs", options.name, shown.stage.wall.outputs.size()));
+  core::log_line(fmt::format("cluster: session {:x}: node {} of the wall, {} of its outputs",
+                             shown.document.header.session, options.name, shown.stage.wall.outputs.size()));
   NodeView view(shown.stage, shown.materials, **display, link,
                 {.node = shown.node, .session = shown.document.header.session, .model = shown.document.bytes}, key_list,
                 clock);
@@ -179,29 +179,22 @@ core::Result<std::unique_ptr<NodeStage>> show_wall(const NodeOptions& options, N
   return next;
 }
 
-core::Result<void> run_node(const NodeOptions& options, const CommandContext& context) {
-  const core::CodeOfInterruption ended(core::ExitCode::Done);
-  const core::OrderlyEnd by_itself;
-  const core::MonotonicClock clock;
-  const auto network = node_network(options);
-  if (!network) return tl::unexpected(network.error());
-  auto link = cluster::NodeLink::open(*network, clock);
-  if (!link) return tl::unexpected(link.error());
-  core::log_line(fmt::format("cluster: node {} waits for the machine with the hand on {}, domain {}", options.name,
-                             network->interface_address, network->domain));
+// Shows one wall after the other until the program is interrupted or a window closed.
+core::Result<void> show_walls(const NodeOptions& options, const CommandContext& context, cluster::NodeLink& link,
+                              const core::Clock& clock) {
   std::unique_ptr<NodeStage> shown, earlier;
   while (!core::interrupted()) {
     if (!shown) {
-      auto document = (*link)->model();
+      auto document = link.model();
       if (!document) {
-        (*link)->wait(50);
+        link.wait(50);
         continue;
       }
-      auto loaded = load_stage(options.name, std::move(*document), context, **link);
+      auto loaded = load_stage(options.name, std::move(*document), context, link);
       if (!loaded) return tl::unexpected(loaded.error());
       shown = std::move(*loaded);
     }
-    auto next = show_wall(options, *shown, earlier, context, **link, clock);
+    auto next = show_wall(options, *shown, earlier, context, link, clock);
     if (!next && earlier) {
       core::log_line(fmt::format("cluster: the next wall cannot be shown here: {}; showing the one before again",
                                  next.error().message));
@@ -213,6 +206,21 @@ core::Result<void> run_node(const NodeOptions& options, const CommandContext& co
     earlier = std::exchange(shown, std::move(*next));
   }
   return {};
+}
+
+core::Result<void> run_node(const NodeOptions& options, const CommandContext& context) {
+  const core::CodeOfInterruption ended(core::ExitCode::Done);
+  const core::OrderlyEnd by_itself;
+  const core::MonotonicClock clock;
+  const auto network = node_network(options);
+  if (!network) return tl::unexpected(network.error());
+  auto link = cluster::NodeLink::open(*network, clock);
+  if (!link) return tl::unexpected(link.error());
+  core::log_line(fmt::format("cluster: node {} waits for the machine with the hand on {}, domain {}", options.name,
+                             network->interface_address, network->domain));
+  auto shown = show_walls(options, context, **link, clock);
+  core::log_line(fmt::format("cluster: node {} ends; {} datagrams refused", options.name, (*link)->refused()));
+  return shown;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "physics/friction/friction_tip.h"
 
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -86,14 +85,7 @@ void WellTip::check(const FrictionParameters& friction) {
 }
 
 WellTip::WellTip(const FrictionContact& at)
-    : lattice_(at.friction.lattice),
-      period_(at.friction.period),
-      corrugation_(at.friction.corrugation),
+    : corrugation_(at.friction.corrugation),
       tip_(at.friction.lattice, at.friction.period, at.friction.lateral_stiffness) {}
-
-Force WellTip::yield(Force load) const noexcept {
-  const Energy row = scale(load) / (LatticeLandscape::scale_of_row(lattice_, Energy(1.0)).si);
-  return std::numbers::pi * row / period_;
-}
 
 }  // namespace afm::physics

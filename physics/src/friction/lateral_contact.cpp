@@ -7,10 +7,6 @@ LateralContact::LateralContact(const FrictionParameters& friction, Law law, cons
                                Force adhesion)
     : stiffness_(friction.lateral_stiffness), tip_(friction_tip({friction, law, contact, adhesion})) {}
 
-Force LateralContact::yield(Force load) const noexcept {
-  return std::visit([load](const auto& tip) { return tip.yield(load); }, tip_);
-}
-
 LateralContact::Step LateralContact::touch_down(const Sideways<Length>& support, Force load) noexcept {
   touching_ = true;
   return std::visit([&](auto& tip) { return tip.touch_down(support, load); }, tip_);

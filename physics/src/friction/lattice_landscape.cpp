@@ -53,15 +53,4 @@ double LatticeLandscape::sharpest_bend() const noexcept {
 
 double LatticeLandscape::highest() const noexcept { return 2.0 * count_; }
 
-Energy LatticeLandscape::scale_of_row(LatticeKind kind, Energy amplitude) noexcept {
-  switch (kind) {
-    case LatticeKind::Rows:
-    case LatticeKind::Square:
-      break;
-    case LatticeKind::Hexagonal:
-      return 0.25 * amplitude;
-  }
-  return 0.5 * amplitude;
-}
-
 }  // namespace afm::physics

@@ -122,6 +122,13 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   EXPECT_EQ(right->ends(), 0) << right->said();
   left->signal(SIGTERM);
   EXPECT_EQ(left->ends(), 0) << left->said();
+  EXPECT_THAT(left->said(), HasSubstr("cluster: node left ends; 0 datagrams refused"));
+  // master and node name the session alike
+  const std::string session = "cluster: session ";
+  const std::size_t at = hand->said().find(session);
+  ASSERT_NE(at, std::string::npos) << hand->said();
+  const std::string named = hand->said().substr(at, hand->said().find(',', at) - at);
+  EXPECT_THAT(left->said(), HasSubstr(named + ": node left of the wall"));
 }
 
 TEST_F(ClusterViewTest, ShowsThePixelOfAForceMapThatIsFelt) {

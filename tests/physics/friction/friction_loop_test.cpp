@@ -44,7 +44,7 @@ TEST(FrictionLoop, HasTheYieldForceOffsetAndSpringOfDryFriction) {
 TEST(FrictionLoop, HasTheMeanForceOfAStickSlip) {
   const SineLattice row{0.5_nm, Energy(6.33257397764611e-20), 1_N_per_m};
   LatticeTip tip(LatticeKind::Rows, row.period, row.spring);
-  const Energy scale = LatticeLandscape::scale_of_row(LatticeKind::Rows, row.amplitude);
+  const Energy scale = scale_of_row(LatticeKind::Rows, row.amplitude);
   tip.land({}, scale);
   const auto run = cycles(tip, [&](auto& t, const Sideways<Length>& to) { t.move_to(to, scale); }, 40.1e-9, 20'000);
   const auto loop = last_friction_loop(run);

@@ -30,7 +30,7 @@ Sideways<Length> place(double x_m, double y_m = 0.0) { return {Length(x_m), Leng
 
 class LatticeOfAnyKind : public testing::TestWithParam<LatticeKind> {
  protected:
-  Energy scale(double eta) const { return LatticeLandscape::scale_of_row(GetParam(), row_amplitude(eta)); }
+  Energy scale(double eta) const { return scale_of_row(GetParam(), row_amplitude(eta)); }
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, LatticeOfAnyKind,
@@ -98,7 +98,7 @@ TEST_P(LatticeOfAnyKind, GivesTheSameForcesAndSlipsWhateverTheSteps) {
 
 TEST(HexagonalLattice, MakesTheTipZigzagWhereItIsPulledAcrossTheRows) {
   LatticeTip tip(LatticeKind::Hexagonal, kPeriod, kSpring);
-  const Energy scale = LatticeLandscape::scale_of_row(LatticeKind::Hexagonal, row_amplitude(5.0));
+  const Energy scale = scale_of_row(LatticeKind::Hexagonal, row_amplitude(5.0));
   // a hair beside the mirror line, on which it could go either way
   const double beside = 1e-4 * kPeriod.si, across = std::numbers::sqrt3 * kPeriod.si;
   tip.land(place(beside, 0.0), scale);
@@ -114,14 +114,14 @@ TEST(HexagonalLattice, MakesTheTipZigzagWhereItIsPulledAcrossTheRows) {
 }
 
 TEST(LatticeTip, CountsASlipForEveryRowOfAFastHand) {
-  const Energy scale = LatticeLandscape::scale_of_row(LatticeKind::Hexagonal, row_amplitude(5.0));
+  const Energy scale = scale_of_row(LatticeKind::Hexagonal, row_amplitude(5.0));
   LatticeTip tip(LatticeKind::Hexagonal, kPeriod, kSpring);
   tip.land(place(0.0), scale);
   EXPECT_EQ(tip.move_to(place(2.9 * kPeriod.si), scale).slip_count, 2U);
 }
 
 TEST(LatticeTip, LetsGoWithoutALossWhereTheLoadFalls) {
-  const Energy high = LatticeLandscape::scale_of_row(LatticeKind::Hexagonal, row_amplitude(4.0));
+  const Energy high = scale_of_row(LatticeKind::Hexagonal, row_amplitude(4.0));
   LatticeTip tip(LatticeKind::Hexagonal, kPeriod, kSpring);
   tip.land(place(0.0), high);
   pull(tip, place(0.0), place(20.5 * kPeriod.si), 400, high);
@@ -192,7 +192,7 @@ TEST(LatticeTip, NeverGivesEnergyOnAClosedPath) {
   int with_slips = 0, by_force = 0;
   for (int path = 0; path < support::draws(100'000); ++path) {
     const auto kind = static_cast<LatticeKind>(path % 3);
-    const Energy full = LatticeLandscape::scale_of_row(kind, row_amplitude(6.0));
+    const Energy full = scale_of_row(kind, row_amplitude(6.0));
     const auto anywhere = [&] {
       const double x_m = (share(random) - 0.5) * 1.6 * kPeriod.si;
       return std::pair{place(x_m, (share(random) - 0.5) * 1.6 * kPeriod.si), full * share(random)};

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "physics/friction/lattice_tip.h"
 #include "physics/units.h"
 
 // The tip on a row of atoms (Prandtl 1928, Tomlinson 1929), pulled by a spring k so slowly that it is always at rest:
@@ -30,6 +31,12 @@ inline double wave_number(const SineLattice& lattice) { return kTurn / lattice.p
 inline double slip_parameter(const SineLattice& lattice) {
   const double q = wave_number(lattice);
   return 0.5 * lattice.amplitude.si * q * q / lattice.spring.si;
+}
+
+// U of a lattice whose largest force along x equals that of a row of the amplitude E0: E0/4 for Hexagonal, otherwise
+// E0/2.
+inline Energy scale_of_row(LatticeKind kind, Energy amplitude) {
+  return (kind == LatticeKind::Hexagonal ? 0.25 : 0.5) * amplitude;
 }
 
 inline double potential_of(const SineLattice& lattice, double tip_m, double support_m) {

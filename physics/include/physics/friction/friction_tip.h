@@ -39,13 +39,12 @@ class SlidingTip {
   }
   LatticeTip::Step slide_to(const Sideways<Length>& support, Force load) noexcept {
     LatticeTip::Step step;
-    step.lost = tip_.move_to(support, yield(load));
+    step.lost = tip_.move_to(support, yield_.at(load));
     return step;
   }
   Sideways<Force> force() const noexcept { return tip_.force(); }
   Energy stored() const noexcept { return tip_.stored(); }
   Length lift_per_load() const noexcept { return {}; }
-  Force yield(Force load) const noexcept { return yield_.at(load); }
 
  private:
   Yield yield_;
@@ -78,7 +77,7 @@ class ContactAreaYield {
   double root_step_ = 1.0;        // sqrt(N)
 };
 
-// A tip in the wells of a lattice, whose depth is proportional to the load. Its yield force is the largest along x.
+// A tip in the wells of a lattice, whose depth is proportional to the load.
 class WellTip {
  public:
   static constexpr FrictionLaw kLaw = FrictionLaw::Lattice;
@@ -94,13 +93,11 @@ class WellTip {
   Sideways<Force> force() const noexcept { return tip_.force(); }
   Energy stored() const noexcept { return tip_.stored(); }
   Length lift_per_load() const noexcept { return tip_.relief() * corrugation_; }
-  Force yield(Force load) const noexcept;
 
  private:
   Energy scale(Force load) const noexcept { return corrugation_ * load; }
 
-  LatticeKind lattice_;
-  Length period_, corrugation_;
+  Length corrugation_;
   LatticeTip tip_;
 };
 

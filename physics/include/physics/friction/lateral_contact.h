@@ -29,9 +29,6 @@ class LateralContact {
 
   Stiffness stiffness() const noexcept { return stiffness_; }  // stiffness of its stiffest spring
 
-  // The smallest force that slides the tip, at a load at or above zero; for a lattice the largest along x.
-  Force yield(Force load) const noexcept;
-
  private:
   Stiffness stiffness_;
   FrictionTip tip_;  // never valueless, so visiting it cannot throw

@@ -31,9 +31,6 @@ class LatticeLandscape {
   double sharpest_bend() const noexcept;  // upper bound of the curvature, 1/m^2
   double highest() const noexcept;        // upper bound of the height
 
-  // U for which the largest force along x equals that of a row of the amplitude E0: E0/4 for Hexagonal, otherwise E0/2.
-  static Energy scale_of_row(LatticeKind kind, Energy amplitude) noexcept;
-
  private:
   struct Wave {
     double x = 0.0, y = 0.0;  // g, 1/m
