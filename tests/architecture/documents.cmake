@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # cmake -DROOT=... -P documents.cmake
 # Every test that a document names exists: `Suite.Case`, `Suite.*`, `Suite.Beginning*` and files below tests/. So does every path
-# in backticks that begins with a folder of the tree, as a file, a folder, or a header as it is included. Each term has one row in
-# the glossary.
+# in backticks that begins with a folder of the tree, as a file, a folder, or a header as it is included, and a name that a document
+# places there (`kLanguages` in `exhibit/...`) is in that file. Each term has one row in the glossary.
 cmake_minimum_required(VERSION 3.25)
 
 # all cases, from TEST and its relatives and from add_test
@@ -66,6 +66,21 @@ foreach(document ${documents})
     file(GLOB found ${ROOT}/${path} ${ROOT}/*/include/${path} ${ROOT}/scene/*/include/${path})
     if(NOT found)
       string(APPEND faults "${document}: ${path}: there is no such file or folder\n")
+    endif()
+  endforeach()
+  string(REGEX MATCHALL "`[A-Za-z][A-Za-z0-9_]+(\\(\\))?` (in |\\()`[a-z]+/[A-Za-z0-9_/-]+\\.(h|cpp)`" placed "${text}")
+  foreach(name ${placed})
+    math(EXPR named "${named} + 1")
+    string(REGEX REPLACE "^`([A-Za-z0-9_]+).* ?\\(?`([^`]+)`$" "\\2" path "${name}")
+    string(REGEX REPLACE "^`([A-Za-z0-9_]+).*" "\\1" name "${name}")
+    file(GLOB found ${ROOT}/${path} ${ROOT}/*/include/${path} ${ROOT}/scene/*/include/${path})
+    set(contents "")
+    foreach(file ${found})
+      file(READ ${file} read)
+      string(APPEND contents "${read}")
+    endforeach()
+    if(NOT contents MATCHES "[^A-Za-z0-9_]${name}[^A-Za-z0-9_]")
+      string(APPEND faults "${document}: ${name} is not in ${path}\n")
     endif()
   endforeach()
   string(REGEX MATCHALL "tests/[A-Za-z0-9_/.*-]*[A-Za-z0-9_*]" files "${text}")
