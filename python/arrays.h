@@ -23,7 +23,7 @@ class GivenArray : public pybind11::array_t<double, pybind11::array::c_style | p
  public:
   using array_t::array_t;
 
-  // Nothing for what holds no real numbers.
+  // Numbers of an argument; empty for one without real numbers.
   static std::optional<GivenArray> of(pybind11::handle given) {
     const auto any = pybind11::array::ensure(given);
     if (!any || !has_numbers(any)) return std::nullopt;
@@ -72,7 +72,7 @@ pybind11::object each(const GivenArray& given, const Function& function) {
   const auto count = static_cast<std::size_t>(given.size());
   const double* in = given.data();
   double* out = result.mutable_data();
-  constexpr std::size_t kUnwatched = 1'000'000;  // points between two looks for Ctrl-C
+  constexpr std::size_t kUnwatched = 1'000'000;  // number of points between two checks for Ctrl-C
   for (std::size_t begin = 0; begin < count; begin += kUnwatched) {
     Unlocked unlocked;
     const std::size_t end = std::min(count, begin + kUnwatched);

@@ -7,16 +7,16 @@
 namespace afm::python {
 
 void add_errors(pybind11::module_& module);
-void add_contacts(pybind11::module_& module);  // materials, probes, contacts, laws
-void add_cycles(pybind11::module_& module);    // cycles, sweeps, the paper's tables
-void add_files(pybind11::module_& module);     // curves of files
-void add_images(pybind11::module_& module);    // images of files
-void add_fits(pybind11::module_& module);      // analysis and fits
+void add_contacts(pybind11::module_& module);  // adds materials, probes, contacts, laws
+void add_cycles(pybind11::module_& module);    // adds cycles, sweeps, the paper's tables
+void add_files(pybind11::module_& module);     // adds curves from files
+void add_images(pybind11::module_& module);    // adds images from files
+void add_fits(pybind11::module_& module);      // adds analysis and fits
 void add_tapping(pybind11::module_& module);
 void add_frequency_shifts(pybind11::module_& module);
-void add_scans(pybind11::module_& module);      // images of the virtual microscope
-void add_levers(pybind11::module_& module);     // calibration
-void add_synthetic(pybind11::module_& module);  // curves with their truth
+void add_scans(pybind11::module_& module);      // adds images of the virtual microscope
+void add_levers(pybind11::module_& module);     // adds the calibration of levers
+void add_synthetic(pybind11::module_& module);  // adds synthetic curves with their truth
 void add_sessions(pybind11::module_& module);
 void add_studies(pybind11::module_& module);
 

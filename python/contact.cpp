@@ -43,7 +43,7 @@ curves::ContactSetup Contact::with_law(const std::optional<std::string>& law) co
 
 namespace {
 
-// With the files of the installation, and nothing else.
+// Options with the files of the installation, and nothing else.
 curves::ContactOptions built_in() {
   curves::ContactOptions options;
   options.assets_dir = assets_dir();

@@ -11,7 +11,7 @@ namespace afm::python {
 // Folder with materials.toml and probes.toml, of a build or an installation.
 std::string assets_dir();
 
-// touchafm.Contact: what a user gave, and the contact that this makes. Immutable.
+// touchafm.Contact: the options of a user, and the resulting contact. Immutable.
 class Contact {
  public:
   // Throws Refusal and std::invalid_argument.
@@ -20,7 +20,7 @@ class Contact {
   const curves::ContactOptions& options() const { return options_; }
   const curves::ContactSetup& setup() const { return setup_; }
 
-  // The same with another law; nothing: its own.
+  // The contact with another law; nullopt: its own law.
   curves::ContactSetup with_law(const std::optional<std::string>& law) const;
 
  private:

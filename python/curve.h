@@ -7,7 +7,7 @@
 
 namespace afm::python {
 
-// touchafm.Curve: a curve of a file, of arrays or made up, and its name in messages. Immutable.
+// touchafm.Curve: a curve from a file, from arrays or synthetic, and its name in messages. Immutable.
 struct Curve {
   std::string name;
   curves::RecordedCurve recorded;

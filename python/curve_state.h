@@ -10,14 +10,14 @@
 
 namespace afm::python {
 
-// A curve with all that is known of it as Python's own objects, to be pickled.
+// A curve with all of its data as Python's own objects, for pickling.
 pybind11::tuple state_of_curve(const Curve& curve);
 
-// The same curve. ValueError for the state of another version.
+// The curve of such a state. ValueError for the state of another version.
 Curve curve_from_state(const pybind11::tuple& state);
 
-// Points of equally long columns: m, N, not zero on the approach. ValueError for one that is not finite, or of the
-// approach and after the retract. Needs no lock of Python.
+// Points of equally long columns: m, N, non-zero on the approach. ValueError for a number that is not finite, or an
+// approach after the retract. Works without Python's lock.
 std::vector<physics::CurvePoint> points_from(std::span<const double> z_m, std::span<const double> force_n,
                                              std::span<const double> approach);
 

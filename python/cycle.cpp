@@ -35,7 +35,7 @@ namespace py = pybind11;
 using curves::CurveRun;
 using physics::CurveSample;
 
-// touchafm.Sweep.
+// touchafm.Sweep: the arguments and results of a sweep.
 struct Sweep {
   curves::ContactSetup setup;
   std::vector<curves::SweepAxis> axes;
@@ -173,7 +173,7 @@ Sweep make_sweep(const Contact& contact, const std::optional<std::string>& law, 
   return sweep;
 }
 
-// In the shape of the sweep.
+// Array in the shape of the sweep.
 template <class Value>
 py::object shaped(const Sweep& sweep, const Value& value) {
   py::object flat = computed(sweep.rows, value);
@@ -240,7 +240,7 @@ void add_sweep(py::module_& module) {
       "million points, and if no point has a curve. docs/physics.md has the equations with their sources.");
 }
 
-// Tables 1 and 2 of Liu & Peng beside the same from the paper's equations, as touchafm paper writes them.
+// Tables 1 and 2 of Liu & Peng beside the values of the paper's equations, as touchafm paper writes them.
 py::dict paper_tables() {
   const auto library = value_of(scene::load_materials(assets_dir() + "/materials.toml"));
   const auto samples = value_of(library.only(scene::kPaperMaterials));

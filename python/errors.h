@@ -10,7 +10,7 @@
 
 namespace afm::python {
 
-// Where the fault lies if the usage is right: in a file, or in data that the program already has.
+// Origin of a fault if the usage is right: a file, or data that the program already has.
 enum class FaultOf { File, Data };
 
 // An error of the library on its way to Python: wrong usage becomes ValueError, a fault of data touchafm.DataError, one

@@ -78,7 +78,7 @@ std::vector<Curve> read(const std::filesystem::path& path, std::optional<double>
                                 const std::stop_token& stop) { return read_all(path, reading, stop); }));
 }
 
-// "(3, 2)", as numpy prints it.
+// Shape of an array as numpy prints it, "(3, 2)".
 std::string shape_of(const GivenArray& given) { return py::str(given.attr("shape")); }
 
 Curve make_curve(const GivenArray& z, const GivenArray& force, const GivenArray& approach,

@@ -8,7 +8,7 @@
 
 namespace afm::python {
 
-// The same as Python's objects, by way of the text that a command prints, so that every number has its digits.
+// JSON as Python's objects, by way of the text that a command prints, so that every number has its digits.
 pybind11::dict dict_of(const nlohmann::ordered_json& json);
 pybind11::dict dict_of_text(const std::string& json);
 

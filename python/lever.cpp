@@ -35,7 +35,7 @@ struct Lever {
   LeverCalibration found;
 };
 
-// A file, or frequencies in Hz and densities in m^2/Hz or V^2/Hz.
+// Spectrum from a file, or as frequencies in Hz and densities in m^2/Hz or V^2/Hz.
 using Thermal = std::variant<std::filesystem::path, std::pair<GivenArray, GivenArray>>;
 
 curves::Spectrum spectrum_of(const std::pair<GivenArray, GivenArray>& columns, bool in_volts) {
@@ -58,7 +58,7 @@ void within(std::string_view name, std::optional<double> given, double least, do
                      most));
 }
 
-// Where the fault of a failed calibration lies: in arrays that were given, if it remains without the file of a curve.
+// Origin of a failed calibration's fault: given arrays, if it remains without the file of a curve.
 FaultOf fault_of(const LeverOptions& options, const core::Error& error) {
   if (!options.spectrum) return FaultOf::File;
   LeverOptions without_curve(options);

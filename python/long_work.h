@@ -28,13 +28,13 @@ template <class Work>
 auto long_work(Work work) -> decltype(work(std::stop_token())) {
   using Result = decltype(work(std::stop_token()));
   constexpr std::chrono::milliseconds kLook(50);
-  constexpr int kNicer = 5;  // Python's own threads come first where all cores are busy
+  constexpr int kNicer = 5;  // lower priority than Python's own threads where all cores are busy
   const bool watches = handles_signals();
   Unlocked unlocked;
   std::promise<Result> promise;
   std::future<Result> result = promise.get_future();
   std::jthread thread([work = std::move(work), promise = std::move(promise)](const std::stop_token& stop) mutable {
-    // of this thread and those that it starts; at the worst they are as nice as before
+    // affects this thread and those that it starts; if refused, their priority stays as it was
     ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + kNicer);
     try {
       promise.set_value(work(stop));

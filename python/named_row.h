@@ -10,7 +10,7 @@
 
 namespace afm::python {
 
-// The row of a table with that name. ValueError, with all names, if there is none; `sort` says of what: "law".
+// The row of a table with that name. ValueError, with all names, if there is none; `sort` names the kind of row: "law".
 template <class Table>
 const auto& row_named(const Table& table, std::string_view name, std::string_view sort) {
   std::string names;

@@ -5,8 +5,8 @@
 
 namespace afm::python {
 
-// Metaclass of every class here: Python's own. pybind11's brings properties of classes, which nobody uses, and looks at
-// subclasses, of which there are none: add pybind11::is_final() beside it.
+// Metaclass of every class here: Python's own. pybind11's adds class properties, which are not used, and checks
+// subclasses, of which there are none: combine it with pybind11::is_final().
 inline pybind11::metaclass plain_type() { return pybind11::metaclass(reinterpret_cast<PyObject*>(&PyType_Type)); }
 
 }  // namespace afm::python

@@ -50,7 +50,7 @@ nlohmann::ordered_json contact_numbers(const RecordedSession& session) {
   return curves::session_numbers(session.material, session.parameters, session.sources, assets_dir());
 }
 
-// A number of each event.
+// Array of one number of each event.
 template <class Value>
 auto of_events(Value value) {
   return [value](const RecordedSession& self) {

@@ -64,7 +64,7 @@ curves::SyntheticSetup setup_of(const std::optional<std::string>& law, const std
   return setup;
 }
 
-// The curves, and the dict of the truth file.
+// Pair of the curves and the dict of the truth file.
 py::tuple with_truth(curves::SyntheticFile file) {
   std::vector<Curve> made;
   made.reserve(file.curves.size());

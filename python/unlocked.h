@@ -7,9 +7,9 @@
 
 namespace afm::python {
 
-// Python's other threads run while this is there, until lock(). Like pybind11's gil_scoped_release, whose destructor
-// ends the whole program where Python ends a thread that wants its lock after the program's last line: lock() lets such
-// a thread unwind.
+// Lets Python's other threads run during its lifetime, until lock(). Unlike pybind11's gil_scoped_release, whose
+// destructor ends the program where Python ends a thread that wants its lock after the program's last line: lock() lets
+// such a thread unwind.
 class Unlocked {
  public:
   Unlocked() : state_(PyEval_SaveThread()) {}
@@ -19,7 +19,7 @@ class Unlocked {
     if (state_ != nullptr) PyEval_RestoreThread(state_);
   }
 
-  // Takes the lock again.
+  // Acquires the lock again.
   void lock() { PyEval_RestoreThread(std::exchange(state_, nullptr)); }
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 using afm::core::ExitCode;
 
-// A descriptor's number after its option, or -1.
+// The number of a descriptor after its option, or -1.
 int descriptor_after(std::string_view option, int count, char** arguments) {
   for (int i = 1; i + 1 < count; i += 2) {
     if (arguments[i] != option) continue;

@@ -40,7 +40,7 @@ struct Options {
   int segment = -1;
   int parent_socket = -1;
   afm::haptics::ServoSettings settings;
-  int dead_man = 0;  // 0 or 1
+  int dead_man = 0;  // 1: force only while Turn-On is held
   std::string_view haptics = "sim";
 };
 

@@ -101,14 +101,14 @@ std::string lower_text(std::string_view text) {
   return result;
 }
 
-// Text without a byte-order mark and leading blanks.
+// Text after a byte-order mark and leading blanks.
 std::string_view beginning(std::string_view text) {
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   return text;
 }
 
-// Without a byte-order mark: letters, digits and blanks with every other byte zero.
+// True for UTF-16 without a byte-order mark: letters, digits and blanks with every other byte zero.
 bool is_utf16(std::string_view bytes) {
   constexpr std::size_t kLetters = 16;
   if (bytes.size() < 2 * kLetters) return false;
@@ -123,7 +123,7 @@ bool is_utf16(std::string_view bytes) {
   return false;
 }
 
-// Kinds without a signature of their own: mark-up, STL, OBJ.
+// Kind of a file without a signature: mark-up, STL, OBJ.
 std::optional<FileKind> kind_of_text(std::string_view bytes, std::uint64_t file_size) {
   constexpr FileKind kHtml{"an HTML page, probably in place of a download", FileRole::WebPage};
   constexpr FileKind kCollada{"a COLLADA file", FileRole::Model};

@@ -24,11 +24,11 @@ constexpr auto kBeforeTheEnd = std::chrono::seconds(5);
 constexpr auto kTwice = std::chrono::seconds(1);  // timeout(1) and others signal a process and its group
 
 struct Interruptions {
-  std::recursive_mutex undoing;  // guards `undos`; held while they run, and by Uninterrupted
+  std::recursive_mutex undoing;  // guard of `undos`; held while they run, and by Uninterrupted
   std::map<int, std::function<void()>> undos;
   int next_number = 0;
 
-  std::mutex asking;  // guards the members below
+  std::mutex asking;  // guard of the members below
   std::condition_variable heard;
   ExitCode code = ExitCode::RunFailed;
   bool orderly = false;
@@ -81,7 +81,7 @@ void take_interruptions() {
   struct sigaction hangup{};
   if (::sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) ::sigaddset(&ending, SIGHUP);
   ::pthread_sigmask(SIG_BLOCK, &ending, nullptr);
-  ::signal(SIGXFSZ, SIG_IGN);  // a file over the limit becomes an error of write(), like a full disk
+  ::signal(SIGXFSZ, SIG_IGN);  // write() fails beyond the limit, as on a full disk
   std::thread([ending] {
     for (int signal = 0; ::sigwait(&ending, &signal) == 0;) interrupt();
   }).detach();

@@ -22,8 +22,8 @@ namespace afm::core {
 namespace {
 
 constexpr std::size_t kMostWaitingLines = 256;
-constexpr int kLookMs = 100;                   // a new stderr, as by dup2, is noticed within this time
-constexpr std::size_t kWriterStack = 1 << 16;  // locked in the servo, as all of its pages
+constexpr int kLookMs = 100;                   // time within which a replaced stderr, as by dup2, is noticed
+constexpr std::size_t kWriterStack = 1 << 16;  // size of the writer's stack, whose pages the servo locks
 
 // stderr, written to without waiting. O_NONBLOCK belongs to an open file, which other processes share: pipes and
 // terminals are opened once more.
@@ -61,19 +61,19 @@ class Outlet {
     own_ = FileDescriptor(::open("/proc/self/fd/2", O_WRONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
   }
 
-  // Also true where a confined process may not ask.
+  // True if stderr can be written; also where a confined process may not ask.
   static bool accepts() {
     pollfd watched{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     return ::poll(&watched, 1, 0) != 0;
   }
 
-  FileDescriptor own_;  // closed: cannot be opened again, as another user's terminal
+  FileDescriptor own_;  // own open file for stderr; closed: not possible, as for another user's terminal
   dev_t device_ = 0;
   ino_t inode_ = 0;
 };
 
 struct Log {
-  std::mutex mutex;  // guards the members below
+  std::mutex mutex;  // guard of the members below
   Outlet outlet;
   std::deque<std::string> waiting;
   std::size_t dropped = 0;
@@ -113,7 +113,7 @@ void* write_waiting_lines(void*) {
   }
 }
 
-// Not real-time, whatever the calling thread; signals go to the other threads. False: no thread can be started.
+// Starts the writer, not real-time; signals go to the other threads. False: no thread can be started.
 bool start_writer() {
   sigset_t every, before;
   ::sigfillset(&every);

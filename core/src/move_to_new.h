@@ -5,7 +5,7 @@
 
 namespace afm::core {
 
-// Moves a file without replacing one; on a file system that cannot refuse by itself, after a look. Returns 0 or errno:
+// Moves a file without replacing one; a file system that cannot refuse by itself is checked before. Returns 0 or errno:
 // EEXIST if there is one.
 int move_to_new(const std::string& from, const std::string& to);
 

@@ -25,7 +25,7 @@ int report_exceptions(const std::function<int()>& run) noexcept {
     return fail(ExitCode::RunFailed,
                 "out of memory: use fewer samples or a smaller picture, or raise the limit (ulimit -v)");
   } catch (const std::system_error& error) {
-    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // reported by pthread_create
+    const bool limited = error.code() == std::errc::resource_unavailable_try_again;  // true: an error of pthread_create
     return fail(ExitCode::RunFailed,
                 limited ? "cannot start another thread: raise the limits on processes and memory (ulimit -u, ulimit -v)"
                         : error.what());

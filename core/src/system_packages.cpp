@@ -24,7 +24,7 @@ constexpr std::array<PackageSystem, kFamilies> kSystems{{
 }};
 
 struct Distribution {
-  std::string_view id;  // a word of ID or ID_LIKE
+  std::string_view id;  // word of ID or ID_LIKE
   Family family;
 };
 
@@ -36,8 +36,8 @@ constexpr std::array kDistributions{Distribution{"debian", Apt},      Distributi
 struct Part {
   SystemPart part;
   std::string_view description;
-  std::array<const char*, 5> libraries;              // all needed; null: none more
-  std::array<std::string_view, kFamilies> packages;  // in the order of Family
+  std::array<const char*, 5> libraries;              // required libraries; null: no further ones
+  std::array<std::string_view, kFamilies> packages;  // package names in the order of Family
 };
 
 // Names of packages as in Debian 12 and 13, Fedora, Arch and openSUSE Tumbleweed.
@@ -92,7 +92,7 @@ std::string_view value_of(std::string_view text, std::string_view key) {
   return {};
 }
 
-// A word of ID or ID_LIKE; openSUSE's is opensuse-leap or opensuse-tumbleweed.
+// Package system for a word of ID or ID_LIKE; openSUSE's is opensuse-leap or opensuse-tumbleweed.
 const PackageSystem* system_of(std::string_view word) {
   const auto* const found = std::find_if(kDistributions.begin(), kDistributions.end(), [word](const auto& row) {
     return word == row.id || (row.id == "opensuse"sv && word.starts_with("opensuse-"));

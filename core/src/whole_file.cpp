@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestFileBytes = std::uintmax_t{1} << 30U;
 constexpr std::size_t kReadAtOnce = std::size_t{1} << 16U;
-constexpr int kMostLinks = 40;  // length of a chain of links, the limit of Linux
+constexpr int kMostLinks = 40;  // limit of a chain of links, as in Linux
 constexpr mode_t kNewFileMode = 0666;
 constexpr mode_t kPermissions = 07777;
 constexpr auto kReaderPatience = std::chrono::seconds(5);
@@ -73,7 +73,7 @@ int put_in_place(const fs::path& path, std::string_view bytes, std::optional<mod
   std::uint64_t random = 0;
   if (::getrandom(&random, sizeof(random), 0) != sizeof(random)) return errno;
   const std::string part = (path.parent_path() / (".touchafm-" + std::to_string(random) + ".part")).string();
-  const OnInterruption undo([part] { ::unlink(part.c_str()); });  // before the file exists: it may run out of memory
+  const OnInterruption undo([part] { ::unlink(part.c_str()); });  // precedes the file, as memory may run out
   FileDescriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kNewFileMode));
   if (!file.is_open()) return errno;
   int error = write_all(file.get(), bytes);
@@ -91,7 +91,7 @@ std::optional<fs::path> follow_links(const std::string& path) {
     std::error_code error;
     const fs::path next = fs::read_symlink(target, error);
     if (error) return target;
-    target = target.parent_path() / next;  // `next` alone if it is absolute
+    target = target.parent_path() / next;  // only `next` if it is absolute
     if (target.string().starts_with("/proc/")) return std::nullopt;
   }
   return target;
@@ -122,7 +122,7 @@ int write_file_or_errno(const std::string& path, std::string_view bytes, Move mo
   if (!mode) return mode.error();
   const auto target = follow_links(path);
   if (!target || (*mode && !S_ISREG(**mode))) return write_into(path, bytes);
-  if (*mode && ::access(path.c_str(), W_OK) != 0) return errno;  // a rename would not check it
+  if (*mode && ::access(path.c_str(), W_OK) != 0) return errno;  // permission that a rename would not check
   return put_in_place(*target, bytes, *mode ? std::optional(**mode & kPermissions) : std::nullopt, move);
 }
 

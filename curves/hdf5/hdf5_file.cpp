@@ -86,7 +86,7 @@ void put_parameters(hid_t file, const CurveMetadata& metadata) {
   }
 }
 
-// The attributes that afmformats may have written, as JSON in its format.
+// Attributes that afmformats may have written, as JSON in its format.
 nlohmann::json metadata_of(hid_t group) {
   constexpr std::array kKeys{"imaging mode",  "spring constant", "sensitivity",  "speed approach",   "speed retract",
                              "setpoint",      "instrument",      "software",     "software version", "date",
@@ -132,7 +132,7 @@ void read_parameters(hid_t file, CurveMetadata& metadata) {
   }
 }
 
-// afmformats' files have the groups "0", "1", ...; other programs' files have others.
+// Message on a missing curve: afmformats' files have the groups "0", "1", ...; other programs' files have others.
 std::string missing_curve(hid_t file, const std::string& name, std::size_t curves) {
   if (curves > 0) return fmt::format("it has no curve \"{}\"; it has {}, counted from 0", name, curves);
   std::array<char, 64> first{};

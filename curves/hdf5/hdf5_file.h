@@ -15,8 +15,8 @@ namespace afm::curves {
 // afmformats' .h5: one group per curve, "0", "1" and so on, with the metadata as attributes and one data set per
 // column.
 
-// The curves in groups "0", "1" and so on; the parameters are those of the first. The same curves give the same bytes.
-// Throws std::runtime_error.
+// A file with the curves in groups "0", "1" and so on, and the parameters of the first. The same curves give the same
+// bytes. Throws std::runtime_error.
 std::string hdf5_bytes(std::span<const RecordedCurve> curves);
 
 // A file in memory. Rejects data in other files. HDF5 may crash on a damaged file. Throws CurveError.

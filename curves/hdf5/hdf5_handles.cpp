@@ -8,8 +8,8 @@
 namespace afm::curves {
 
 Handle access_to_memory() {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no error stack on stderr
-  H5PLset_loading_state(0);                     // no filters from plug-ins
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // turns off HDF5's error stack on stderr
+  H5PLset_loading_state(0);                     // turns off filters from plug-ins
   Handle access = must(H5Pcreate(H5P_FILE_ACCESS), "prepare a file");
   must_do(H5Pset_fapl_core(access.get(), std::size_t{1} << 20U, 0), "keep a file in memory");
   return access;

@@ -44,10 +44,10 @@ inline void must_do(herr_t status, const char* what) {
 // Access to a file that exists only in memory.
 Handle access_to_memory();
 
-// A file of these bytes, for reading; they are copied. Throws CurveError.
+// Opens a file of these bytes, for reading; they are copied. Throws CurveError.
 Handle open_in_memory(std::string_view bytes);
 
-// A text of fixed or variable length. Throws CurveError beyond 64 KiB.
+// Text of fixed or variable length. Throws CurveError beyond 64 KiB.
 std::string text_of(hid_t attribute, hid_t type);
 
 // Returns whether the link exists and stays within the file. Throws CurveError for any other link: it is not followed.

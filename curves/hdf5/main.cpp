@@ -57,7 +57,7 @@ Number number_of(std::string_view text) {
   return number;
 }
 
-// The curves that are asked for.
+// Curves that the arguments request.
 struct Asked {
   std::size_t first = 0, step = 1;
   curves::CurveReading reading;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kApproach = "Advance", kRetract = "Retract";
 constexpr std::size_t kMostCurves = 4'000'000;
 
-// All numbers of a short data set.
+// Reads all numbers of a short data set.
 std::vector<double> numbers_of(hid_t set) {
   must_hold_its_data(set, "of the numbers of points");
   const Handle space = must(H5Dget_space(set), "read a space");
@@ -38,7 +38,7 @@ std::size_t whole_number(double number) {
   return static_cast<std::size_t>(number);
 }
 
-// A curve's pixel: line by line from the bottom, there and back.
+// Pixel of a curve in a grid that is recorded line by line from the bottom, there and back.
 std::optional<MapPixel> pixel_of(std::size_t index, std::size_t curves, const NhfGrid& grid) {
   const auto is_side = [](double side) {
     return side >= 1.0 && side <= static_cast<double>(kMostMapSide) && side == std::floor(side);
@@ -89,7 +89,7 @@ NhfCurves::NhfCurves(std::string_view bytes) : file_(open_in_memory(bytes)), ver
   throw CurveError("it is a Nanosurf file without a force curve: no spectroscopy with a part \"Advance\"");
 }
 
-// Version 2 has the numbers of points, version 1 the first points, too. Empty where the file does not tell.
+// Points of each curve. Version 2 stores their numbers, version 1 also the first points. Empty if the file has none.
 std::vector<NhfCurves::Extent> NhfCurves::extents_in(hid_t group) const {
   std::vector<double> counts, firsts;
   for (const std::string& link : names_in(group)) {
@@ -154,7 +154,7 @@ std::vector<double> NhfCurves::values_of(const Channel& channel, const Extent& e
   return values;
 }
 
-// The metadata gets the calibration of `reading` where the file has none and the forces need one.
+// Newtons per unit of the deflection. The metadata gets the calibration of `reading` if needed and missing in the file.
 double NhfCurves::newton_per_unit(const std::string& unit, const CurveReading& reading, CurveMetadata& metadata) const {
   if (unit == "N") return 1.0;
   if (unit != "m" && unit != "V") {

@@ -42,7 +42,7 @@ class NhfCurves {
     Channel height, force;
     std::vector<Extent> curves;
   };
-  // A part that is left out.
+  // Part of the cycle that is not read.
   struct Rest {
     std::string name;
     const char* when = nullptr;

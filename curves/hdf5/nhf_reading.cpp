@@ -31,7 +31,7 @@ constexpr std::array kTypes{TypeRow{"int32", 0, 32, true},   TypeRow{"uint8", 1,
                             TypeRow{"uint64", 4, 64, false}, TypeRow{"int16", 5, 16, true},
                             TypeRow{"int64", 6, 64, true}};
 
-// "Meter (m)" becomes m.
+// Unit in the brackets of a name: m for "Meter (m)".
 std::string_view unit_in(std::string_view text) {
   const std::size_t open = text.find('('), close = text.rfind(')');
   return open == std::string_view::npos || close == std::string_view::npos || close < open

@@ -13,19 +13,19 @@
 // Attributes and calibrations of a file of Nanosurf Studio (.nhf), versions 1.1 and 2. Throws CurveError.
 namespace afm::curves {
 
-// A text; empty without such an attribute, and for one of another kind.
+// Text of an attribute; empty if it is missing or of another kind.
 std::optional<std::string> text_attribute(hid_t at, const char* name);
 
-// Up to 16 numbers; empty without such an attribute, and for one of another kind.
+// Numbers of an attribute, at most 16; empty if it is missing or of another kind.
 std::vector<double> numbers_attribute(hid_t at, const char* name);
 
-// One finite number.
+// One finite number of an attribute; empty if it is missing or of another kind.
 std::optional<double> number_attribute(hid_t at, const char* name);
 
 // Names of the links of a group, the first 1000.
 std::vector<std::string> names_in(hid_t group);
 
-// A group or a data set of the file itself; not open for anything else.
+// Opens a group or a data set of the file itself; a closed handle for anything else.
 Handle group_in(hid_t parent, const std::string& name);
 Handle dataset_in(hid_t parent, const std::string& name);
 
@@ -46,7 +46,7 @@ struct NhfGrid {
   double columns = 0, rows = 0, width_m = 0, height_m = 0;
 };
 
-// Takes those numbers that the attributes have.
+// Sets those numbers that the attributes contain.
 void read_nhf_grid(hid_t at, NhfGrid& grid);
 
 // Scale of a channel's numbers: the range of their type is that of the values.
@@ -60,7 +60,7 @@ struct NhfCalibration {
   }
 };
 
-// `has_fill_value`: from version 2 on, where one value of the type says that nothing was measured.
+// `has_fill_value`: from version 2 on, one value of the type means that nothing was measured.
 NhfCalibration nhf_calibration(hid_t channel, bool has_fill_value);
 
 }  // namespace afm::curves

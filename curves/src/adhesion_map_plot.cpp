@@ -16,7 +16,7 @@ using physics::Regime;
 using physics::regime_of;
 
 constexpr double kTaborLow = 1e-3, kTaborHigh = 1e3;
-constexpr double kLoadLow = 1e-2, kLoadHigh = 1e5;  // units of pi W R
+constexpr double kLoadLow = 1e-2, kLoadHigh = 1e5;  // range of loads in units of pi W R
 constexpr int kPoints = 160;
 
 double between(double low, double high, int index) { return low * std::pow(high / low, double(index) / kPoints); }

@@ -36,7 +36,7 @@ scene::MaterialEntry nameless_material() {
   return entry;
 }
 
-// Options that the model needs.
+// Options that a model needs.
 std::vector<const char*> needed_options(const ModelName& model) {
   std::vector<const char*> needed{"tip-radius", "spring-constant"};
   const physics::LawTraits& law = physics::traits_of(model.law);

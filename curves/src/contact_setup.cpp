@@ -36,7 +36,7 @@ constexpr std::array<std::string_view, 1> kTemperature{"temperature"};
 
 using Number = std::optional<double>;
 
-// A row for a parameter with units.
+// Row for a parameter with units.
 ContactParameter row(std::string_view option, std::string_view json_key, std::span<const std::string_view> keys,
                      std::string help, const physics::Units& units, Number (*get)(const ContactSetup&),
                      void (*set)(ContactSetup&, double), physics::Infinity infinity = physics::Infinity::Refused) {
@@ -47,7 +47,7 @@ std::string help_of(std::string_view meaning, const std::string& range, const ph
   return fmt::format("{}, {}; units: {}", meaning, range, physics::list_units(units.units));
 }
 
-// "tip radius"
+// Title of an option: "tip radius".
 std::string title_of(std::string_view option) {
   if (option == "hamaker") return "Hamaker constant";
   std::string title(option);
@@ -57,7 +57,7 @@ std::string title_of(std::string_view option) {
 
 using physics::ContactParameters;
 
-// A row for a member of ContactParameters.
+// Row for a member of ContactParameters.
 template <auto Member>
 ContactParameter row(std::string_view option, std::span<const std::string_view> keys,
                      const physics::ContactField& field) {
@@ -70,7 +70,7 @@ ContactParameter row(std::string_view option, std::span<const std::string_view> 
                                                               : physics::Infinity::Allowed);
 }
 
-// W is twice the laws' surface energy (3.3).
+// Row of the work of adhesion W, which is twice the laws' surface energy (3.3).
 ContactParameter work_of_adhesion() {
   constexpr const physics::ContactField& kMean = physics::contact_field("mean_surface_energy");
   return row(
@@ -84,7 +84,7 @@ ContactParameter work_of_adhesion() {
       [](ContactSetup& s, double si) { s.material.contact.mean_surface_energy = physics::SurfaceEnergy(0.5 * si); });
 }
 
-// A given E* replaces the moduli of the two bodies.
+// Row of E*; a given value replaces the moduli of the two bodies.
 ContactParameter reduced_modulus() {
   ContactParameter parameter = row<&ContactParameters::reduced_modulus>("reduced-modulus", kReducedModulus,
                                                                         physics::contact_field("reduced_modulus"));

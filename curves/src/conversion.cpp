@@ -130,7 +130,7 @@ core::Result<Converted> converted_image(const std::string& file, const std::stri
   }
   auto loaded = load_image(file, {.channel = options.channel});
   if (!loaded) return tl::unexpected(loaded.error());
-  constexpr const char* kConverter = "Converted by";  // last one only
+  constexpr const char* kConverter = "Converted by";  // metadata key, kept only for the newest conversion
   std::erase_if(loaded->image.metadata, [](const auto& entry) { return entry.first == kConverter; });
   loaded->image.metadata.emplace_back(kConverter, core::written_by());
   const physics::ScanImage& image = loaded->image;

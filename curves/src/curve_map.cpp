@@ -49,7 +49,7 @@ class Survey {
   }
 
   const std::vector<Seen>& seen() const { return seen_; }
-  const std::string& why() const { return why_; }  // why the first unreadable curve is one
+  const std::string& why() const { return why_; }  // reason why the first unreadable curve cannot be read
 
  private:
   void read(const SeriesPart& part) {

@@ -25,8 +25,8 @@ using json = nlohmann::ordered_json;
 
 // One line of the report and one key of the JSON.
 struct Figure {
-  const char* key;    // includes the unit
-  const char* title;  // text for users
+  const char* key;    // key in JSON, with the unit
+  const char* title;  // title for users
   std::optional<double> (*si)(const CurveFeatures& features);
   std::string (*text)(double si);
 };
@@ -45,7 +45,7 @@ double zero_of(const CurveFeatures& features) { return features.contact_point.va
 
 bool has_waves(const CurveFeatures& features) { return features.baseline.waves.period.si > 0.0; }
 
-// In printing order.
+// Figures in printing order.
 const Figure kFigures[] = {
     {"baseline_level_N", "baseline", [](const CurveFeatures& f) { return std::optional(f.baseline.level.si); },
      kForceText},
@@ -112,7 +112,7 @@ void add_contact_method(const CurveFeatures& features, Out out) {
   }
 }
 
-// The zeros of an instrument's height and detector are not properties of the contact.
+// False for the zeros of an instrument's height and detector, which are not properties of the contact.
 bool is_comparable(const Figure& figure) {
   return std::string_view(figure.key) != "contact_point_m" && !std::string_view(figure.key).starts_with("baseline");
 }
@@ -175,12 +175,12 @@ void remark_detector_end(const CurveFeatures& features, RecordedCurve& curve) {
                   kForceText(push_n)));
 }
 
-// Zero of the places in a report.
+// Name of the zero of the places in a report.
 const char* zero_name(const CurveFeatures& features) {
   return features.contact_point ? "the contact point" : "the zero of the file's own heights";
 }
 
-// Places with different kinds of zero cannot be subtracted.
+// False for places with different kinds of zero.
 bool is_subtractable(const Figure& figure, const CurveFeatures& a, const CurveFeatures& b) {
   return a.contact_point.has_value() == b.contact_point.has_value() || !std::string_view(figure.key).ends_with("_z_m");
 }

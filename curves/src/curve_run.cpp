@@ -34,7 +34,7 @@ physics::Length default_start(const physics::CycleFigures& figures) {
   return physics::Length(std::ceil(above * 1e9) / 1e9);
 }
 
-// Deep enough for the sample to push: a soft, sticky one must be pressed by far more than 5 nm.
+// Default turning point, deep enough for the sample to push: a soft, sticky one must be pressed by far more than 5 nm.
 physics::Length default_end(const physics::LawTables& tables) {
   physics::Length end(-5e-9);
   for (int i = 0; i < 40 && tables.attached.force(end).si <= 0.0; ++i) end = 1.25 * end;
@@ -42,7 +42,7 @@ physics::Length default_end(const physics::LawTables& tables) {
 }
 
 constexpr double kMostDefaultSteps = 20'000;
-// Limit if only the events are needed but depend on the samples.
+// Limit of the steps if only the events are needed but depend on the samples.
 constexpr double kMostEventSteps = 2e5;
 
 physics::SweepPlan no_finer_than(physics::SweepPlan plan, double steps) {

@@ -32,13 +32,13 @@ std::vector<scene::SourcedValue> sources_of(const ContactSetup& felt, const Cont
   return sources;
 }
 
-constexpr double kRounding = 1e-12;  // largest relative difference by which versions round the same number
+constexpr double kRounding = 1e-12;  // largest relative difference in the rounding of different versions
 
 bool is_same(std::optional<double> si, std::optional<double> loaded) {
   return si == loaded || (si && loaded && std::abs(*si - *loaded) <= kRounding * std::abs(*loaded));
 }
 
-// The text of felt_sources().
+// Sources in the text of felt_sources().
 std::vector<scene::SourcedValue> sources_of(const std::string& recorded) {
   std::vector<scene::SourcedValue> sources;
   const json members = json::parse(recorded);
@@ -92,7 +92,7 @@ nlohmann::ordered_json session_numbers(const std::string& material, const scene:
   const ContactSetup setup = felt_setup(loaded, felt, kOnlyRecorded);
   json result;
   json& parameters = result["parameters"] = parameters_json(setup);
-  // the session does not say them
+  // numbers that the session does not contain
   parameters.erase("tip");
   parameters.erase("medium");
   add_sources(result, recorded.empty() ? sources_of(setup, loaded) : sources_of(recorded));

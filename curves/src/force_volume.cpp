@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kForceUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kOutlyingPixels = 0.1;  // share of the pixels whose forces may be beyond the range
-constexpr double kLeastOther = 0.02;     // least share of the larger end of the range at the smaller
+constexpr double kLeastOther = 0.02;     // smaller end of the range as a share of the larger one, at least
 constexpr double kForceless = 0.05;      // share of the range below which there is hardly a force
 constexpr double kAbove = 1.2;           // shown height, as a multiple of the height with a force
 
@@ -148,7 +148,7 @@ std::size_t ForceVolume::reached(double force_n) const {
   }));
 }
 
-// From above, so that the first point that reaches the force is the highest.
+// Greatest height at which a branch reaches a force. Searches from above.
 double ForceVolume::height_on(const Branch& branch, double force_n) {
   const auto reaches = [&](const Point& point) {
     const double at_n = static_cast<double>(point.force_n);

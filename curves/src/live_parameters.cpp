@@ -25,12 +25,12 @@ namespace {
 using physics::Law;
 
 constexpr double kOctavesOfStep = 0.25;
-constexpr physics::Pressure kStiffestModulus{1e12};  // first value of a step down from "rigid"
+constexpr physics::Pressure kStiffestModulus{1e12};  // first modulus on the way down from "rigid"
 constexpr int kDigits = 3;
-constexpr int kMostSteps = 200;  // far beyond the range of any law
+constexpr int kMostSteps = 200;  // limit far beyond the range of any law
 constexpr double kPointsOfCycle = 400.0;
 
-// In the panel's order; empty means the choice of the adhesion map.
+// Laws in the panel's order; empty means the choice of the adhesion map.
 std::span<const std::optional<Law>> choices_of_law() {
   static const auto choices = [] {
     std::vector<std::optional<Law>> all{std::nullopt};
@@ -40,7 +40,7 @@ std::span<const std::optional<Law>> choices_of_law() {
   return choices;
 }
 
-// One cycle over the range of the force panel.
+// Predicted cycle over the range of the force panel.
 physics::ForceCurve predict(const SampleModel& material) {
   const double reach = cycle_reach_m(material);
   const physics::Length from(kReachAbove * reach), to(-kReachBelow * reach);

@@ -17,7 +17,7 @@ namespace afm::curves {
 
 namespace {
 
-constexpr double kNarrowestScanM = 1e-10;  // size of an atom
+constexpr double kNarrowestScanM = 1e-10;  // width of the narrowest scan, the size of an atom
 constexpr double kWidestScanM = 1e-3, kHighestM = 1e-3;
 constexpr double kSquarePixels = 1e-3;  // largest relative difference of the sides
 
@@ -25,7 +25,7 @@ std::string length_text(double length_m) {
   return physics::format_quantity(physics::Length(length_m), physics::kLengthUnits);
 }
 
-// In the channel's unit; lengths in a convenient one.
+// Value in the channel's unit; lengths in a convenient one.
 std::string value_text(const MeasuredTopography& topography, double value) {
   const std::string& unit = topography.channel().unit;
   return unit == "m" ? length_text(value) : fmt::format("{:.5g} {}", value, unit);
@@ -58,7 +58,7 @@ PixelGrid averaged(const PixelGrid& grid, std::size_t across, std::size_t down) 
   return mean;
 }
 
-// Bilinear between the pixels' centres; at the rim, the height of the nearest centre.
+// Height by bilinear interpolation between the pixels' centres; at the rim, the height of the nearest centre.
 double height_at(const PixelGrid& grid, double column, double row) {
   const double c = std::clamp(column, 0.0, static_cast<double>(grid.columns - 1)),
                r = std::clamp(row, 0.0, static_cast<double>(grid.rows - 1));

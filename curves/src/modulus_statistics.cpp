@@ -24,7 +24,7 @@ double median_of(const std::vector<double>& values) {
 
 std::string pressure(double pa) { return physics::format_quantity(physics::Pressure(pa), physics::kPressureUnits, 4); }
 
-// Steps of the shares of the values between two ends, in per cent; those beyond are left out.
+// Steps of a histogram between two ends, in per cent of all values; those beyond are left out.
 SvgLine steps_of(const std::vector<double>& places, double low, double high) {
   // the root of their number, within what a picture shows
   const std::size_t bins =
@@ -48,7 +48,7 @@ SvgLine steps_of(const std::vector<double>& places, double low, double high) {
 SvgPlot histogram(const std::string& title, const std::string& x_label, const std::vector<double>& places,
                   std::pair<double, double> ends, double median) {
   auto [low, high] = ends;
-  if (!(high > low)) {  // all alike
+  if (!(high > low)) {  // identical values
     const double half = std::max(0.05 * std::abs(low), 1e-3);
     low -= half;
     high += half;
@@ -68,7 +68,7 @@ SvgPlot histogram(const std::string& title, const std::string& x_label, const st
 }  // namespace
 
 ModulusFigures modulus_figures(std::vector<double> moduli_pa) {
-  constexpr double kNormal = 1.4826;  // 1 over the 75 % quantile of the normal distribution
+  constexpr double kNormal = 1.4826;  // inverse of the 75 % quantile of the normal distribution
   std::sort(moduli_pa.begin(), moduli_pa.end());
   ModulusFigures figures;
   figures.median_pa = median_of(moduli_pa);

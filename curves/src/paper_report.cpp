@@ -24,12 +24,12 @@ std::string percent(double value, double reference) { return fmt::format("{:+.3f
 
 double number(const std::string& printed) { return std::stod(printed); }
 
-// "0.799 [1]"
+// Text with the number of its erratum: "0.799 [1]".
 std::string with_erratum(const std::string& text, std::string_view erratum) {
   return erratum.empty() ? text : fmt::format("{} [{}]", text, erratum_number(erratum));
 }
 
-// A cell of the third column, or a dash if no run measured it.
+// Text of a cell of the third column, or a dash if no run measured it.
 std::string measured_text(const TableCell& cell) { return cell.measured ? fmt::format("{:.4f}", *cell.measured) : "-"; }
 
 std::string inputs_markdown(const PaperTables& tables) {
@@ -108,7 +108,7 @@ SvgPlot empty_plot(std::string title) {
   return plot;
 }
 
-// Approach dashed and retract solid, as everywhere in the program. The turning point belongs to both.
+// Adds a cycle: approach dashed and retract solid, as everywhere in the program. The turning point belongs to both.
 void add_cycle(SvgPlot& plot, const scene::MaterialEntry& material, std::string_view color, const Window& window) {
   const physics::ApproachRetractModel model(material.contact);
   const physics::Length from = 1.4 * model.figures().z_joc;

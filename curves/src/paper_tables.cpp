@@ -230,7 +230,7 @@ core::Result<PaperTables> paper_tables(const scene::MaterialLibrary& library, co
     }
   }
 
-  constexpr double kNewtons = 1e9;  // nN
+  constexpr double kNewtons = 1e9;  // factor from N to nN
   for (const PrintedTable2& row : kTable2) {
     const scene::MaterialEntry& entry = *library.find(row.material);
     TableCell cell;

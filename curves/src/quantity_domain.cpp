@@ -6,7 +6,7 @@
 namespace afm::curves {
 namespace {
 
-// "5mm/s": as typed, in one word.
+// Text in one word, as typed: "5mm/s".
 std::string in_one_word(double si, const QuantityDomain& domain) {
   std::string text = physics::format_si(si, domain.units, 4);
   std::erase(text, ' ');

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kLeft = 92;
 constexpr double kRight = 28;
-constexpr double kTitle = 48;  // height above the legend
+constexpr double kTitle = 48;  // height of the title above the legend
 constexpr double kLegendRow = 26;
 constexpr double kBottom = 68;
 constexpr double kTolerancePx = 0.1;
-constexpr int kTicks = 8;  // approximate number on an axis
+constexpr int kTicks = 8;  // approximate number of ticks on an axis
 
 bool finite(SvgPoint p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
@@ -48,7 +48,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-// 1, 2 or 5 times a power of ten, about `range`/kTicks.
+// Tick interval: 1, 2 or 5 times a power of ten, about `range`/kTicks.
 double tick_step(double range) {
   const double rough = range / kTicks;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -56,7 +56,7 @@ double tick_step(double range) {
   return power * (mantissa < 1.5 ? 1.0 : mantissa < 3.5 ? 2.0 : mantissa < 7.5 ? 5.0 : 10.0);
 }
 
-// A whole power of ten.
+// Text of an integer power of ten.
 std::string power_text(double exponent) {
   constexpr std::array<const char*, 10> kSuperscripts{"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                                       "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
@@ -124,7 +124,7 @@ struct Axis {
   double last_tick() const { return std::floor(high / step); }
 };
 
-// A line's sample and its label; `x` is the distance from the plot's left edge.
+// Legend entry: a line's sample and its label; `x` is the distance from the plot's left edge.
 struct LegendEntry {
   const SvgLine* line;
   double x;
@@ -132,9 +132,9 @@ struct LegendEntry {
 };
 
 constexpr double kLegendSample = 34;
-constexpr double kCharacter = 8.3;  // slightly wider than the font's mean advance
+constexpr double kCharacter = 8.3;  // width of a character, slightly more than the font's mean advance
 
-// Rows up to the plot's width, at least one.
+// Entries in rows up to the plot's width, at least one per row.
 std::vector<LegendEntry> legend_entries(const SvgPlot& plot) {
   const double width = plot.width - kLeft - kRight;
   std::vector<LegendEntry> entries;
@@ -234,7 +234,7 @@ void draw_axes(std::string& out, const SvgPlot& plot, const Frame& frame) {
                      middle_y, escaped(plot.y_label));
 }
 
-constexpr double kMarkGap = 10;  // between a dot and its text
+constexpr double kMarkGap = 10;  // gap between a dot and its text
 
 const char* dashes(LineStyle style) { return style == LineStyle::Dashed ? " stroke-dasharray=\"7 5\"" : ""; }
 

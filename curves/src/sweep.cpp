@@ -163,7 +163,7 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
 core::Result<std::vector<SweepRow>> run_sweep(const ContactSetup& setup, const std::vector<SweepAxis>& axes,
                                               const PathOptions& path, const std::stop_token& stop) {
   std::uint64_t count = 1;
-  for (const SweepAxis& axis : axes) count *= axis.count;  // at most the square of the largest
+  for (const SweepAxis& axis : axes) count *= axis.count;  // product of at most two axes, so it cannot overflow
   if (count > kLargestParameterSweep) {
     return core::failure(core::ErrorCategory::WrongUsage,
                          fmt::format("the sweep has {} points; at most {} may be", count, kLargestParameterSweep));

@@ -79,10 +79,10 @@ class Path {
   double speed_, drift_, first_m_ = 0, ground_m_ = 0, turn_m_ = 0, step_m_ = 0;
 };
 
-// From -1 to 1 with equal probability.
+// Random number from -1 to 1 with equal probability.
 double uniform(physics::NormalGenerator& random) { return std::erf(random() / std::numbers::sqrt2); }
 
-// Additions of an instrument to the force.
+// Deviations that an instrument adds to the force.
 class Instrument {
  public:
   Instrument(const SyntheticSetup& setup, std::uint64_t seed, double first_m)
@@ -134,8 +134,8 @@ void describe(const SyntheticSetup& setup, CurveMetadata& metadata) {
   metadata.software_version = core::kVersion;
 }
 
-constexpr double kFreeShare = 3.0;     // clearance over the way of the pull-off
-constexpr double kLongestWayM = 1e-3;  // way of a base, up or down
+constexpr double kFreeShare = 3.0;     // clearance as a multiple of the way of the pull-off
+constexpr double kLongestWayM = 1e-3;  // longest way of a base, up or down
 
 core::Result<Made> one_curve(const SyntheticSetup& setup, const fits::Indenter& indenter, std::uint64_t seed) {
   const double reduced_pa = setup.modulus_pa / (1.0 - setup.poisson * setup.poisson);
@@ -191,7 +191,7 @@ core::Result<void> check_points(const SyntheticSetup& setup, std::size_t count) 
                                        count, 2 * setup.points, kMostSyntheticPoints));
 }
 
-// Seed of a curve: those of two files have none in common.
+// Seed of a curve: the curves of two files have none in common.
 std::uint64_t seed_of(const SyntheticSetup& setup, std::size_t index) {
   return (static_cast<std::uint64_t>(setup.seed) << 32U) + index;
 }

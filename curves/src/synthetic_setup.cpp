@@ -36,7 +36,7 @@ FieldUse of_memory(const SyntheticSetup& setup) { return optional_if(setup.noise
 FieldUse of_bits(const SyntheticSetup& setup) { return optional_if(setup.sensitivity_m_per_v > 0.0); }
 FieldUse of_period(const SyntheticSetup& setup) { return required_if(setup.wave_n > 0.0); }
 
-// The option that makes a number of this use meaningful.
+// Option that makes a number of this use meaningful.
 std::string remedy(const SyntheticField& field, const SyntheticSetup& setup) {
   if (field.use == of_memory) return "it needs --noise";
   if (field.use == of_bits) return "it needs --sensitivity";

@@ -13,7 +13,7 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-// Equation of docs/fits.md, and who published it.
+// Equation of docs/fits.md and its publication.
 struct LawSource {
   fits::Shape shape;
   std::string_view equation, source;
@@ -56,7 +56,7 @@ json truth_of(const SyntheticSetup& setup, std::string_view kind) {
   json& parameters = truth["parameters"] = json::object();
   for (const SyntheticField& field : kSyntheticFields) {
     const double si = setup.*field.member;
-    const bool is_set = si != 0.0 || field.smallest <= 0.0;  // zero in a field that must be positive: unset
+    const bool is_set = si != 0.0 || field.smallest <= 0.0;  // false: zero in a field that must be positive
     if (is_set && field.use(setup) != FieldUse::None) parameters[std::string(field.json_key)] = si;
   }
   truth["curves"] = json::array();

@@ -10,7 +10,7 @@
 
 namespace afm::curves {
 
-// Software name in synthetic curves. They are not those of kComputedBy, which have no baseline.
+// Software name in synthetic curves. It differs from kComputedBy, whose curves have no baseline.
 inline constexpr const char* kSyntheticBy = "TouchAFM generate";
 
 // Truth common to all curves of a file: law with its source, numbers that act, seed, program. "curves" is an empty

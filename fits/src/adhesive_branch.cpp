@@ -91,7 +91,7 @@ AdhesiveBranch::Held AdhesiveBranch::at(double way, double& near) const {
   // derivatives by the logarithm of lambda at one s, by central differences; the other laws do not depend on it
   double load_by_lambda = 0.0, indentation_by_lambda = 0.0;
   if (law_ == Shape::Maugis) {
-    constexpr double kStep = 1e-4;  // error of its square
+    constexpr double kStep = 1e-4;  // step of the central difference, whose error is its square
     const Point more = point(lambda_ * std::exp(kStep), near), less = point(lambda_ * std::exp(-kStep), near);
     load_by_lambda = (more.load - less.load) / (2.0 * kStep);
     indentation_by_lambda = (more.indentation - less.indentation) / (2.0 * kStep);
@@ -102,7 +102,7 @@ AdhesiveBranch::Held AdhesiveBranch::at(double way, double& near) const {
   const auto change = [&](double load_power, double indentation_power, double lambda_power) {
     const double load_n = held.force_n * load_power + load_n_ * load_by_lambda * lambda_power;
     const double depth_m = held.depth_m * indentation_power + indentation_m_ * indentation_by_lambda * lambda_power;
-    if (beyond) return -spring_n_per_m_ * depth_m;  // except for the fold's own move
+    if (beyond) return -spring_n_per_m_ * depth_m;  // valid except for the shift of the fold
     return load_n - slope_n * (depth_m + load_n / spring_n_per_m_) / way_slope;
   };
   held.by_modulus_n = change(0.0, -2.0 / 3.0, -2.0 / 3.0);

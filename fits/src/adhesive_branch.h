@@ -16,7 +16,7 @@ class AdhesiveBranch {
 
   struct Held {
     double depth_m = 0, force_n = 0;
-    double by_modulus_n = 0, by_work_n = 0;  // derivatives by the logarithms
+    double by_modulus_n = 0, by_work_n = 0;  // derivatives by the logarithms of modulus and work
     double by_contact_n_per_m = 0;           // derivative by the contact point
   };
 
@@ -27,10 +27,10 @@ class AdhesiveBranch {
 
   double fold() const { return fold_; }
 
-  // Way at the fold, the least of the branch; negative.
+  // Way at the fold, the smallest of the branch; negative.
   double fold_way_m() const { return way_m(point(lambda_, fold_)); }
 
-  // Hardest pull of a soft lever, a magnitude: 2 pi W R for DMT, 3/2 pi W R for JKR.
+  // Strongest pull of a soft lever, a magnitude: 2 pi W R for DMT, 3/2 pi W R for JKR.
   double pull_off_n() const;
 
   // Way at the fold, where the lever jumps off; negative.
@@ -38,8 +38,8 @@ class AdhesiveBranch {
 
  private:
   struct Point {
-    double load, indentation;    // in Maugis' units
-    double dload, dindentation;  // by s
+    double load, indentation;    // load and indentation in Maugis' units
+    double dload, dindentation;  // derivatives by s
   };
   Point point(double lambda, double s) const;
   double way_m(const Point& point) const;
@@ -51,10 +51,10 @@ class AdhesiveBranch {
   double lambda_, spring_n_per_m_, load_n_, indentation_m_, fold_;
 };
 
-// mu = (R W^2/(E*^2 z0^3))^(1/3) (Tabor 1977).
+// Tabor parameter mu = (R W^2/(E*^2 z0^3))^(1/3) (Tabor 1977).
 double tabor_of(const physics::AdhesiveContact& contact, double atomic_distance_m);
 
-// Law of a Tabor parameter by the borders of Johnson & Greenwood 1997 (physics/adhesion_map.h).
+// Law for a Tabor parameter by the borders of Johnson & Greenwood 1997 (physics/adhesion_map.h).
 Shape law_of_tabor(double tabor);
 
 }  // namespace afm::fits

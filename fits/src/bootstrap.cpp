@@ -40,7 +40,7 @@ std::size_t block_length(const std::vector<double>& residuals) {
   return static_cast<std::size_t>(std::ceil(std::clamp(length, 1.0, std::max(1.0, 0.25 * n))));
 }
 
-// Between neighbours in order.
+// Quantile of sorted values, interpolated between neighbours.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);

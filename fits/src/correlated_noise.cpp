@@ -14,7 +14,7 @@ namespace afm::fits {
 
 namespace {
 
-constexpr double kMostPartial = 0.9995;  // magnitude of a partial correlation
+constexpr double kMostPartial = 0.9995;  // largest magnitude of a partial correlation
 
 // Coefficients of a stationary process from its partial correlations (Durbin & Levinson).
 Orders coefficients_of(const Orders& partial, std::size_t order) {
@@ -27,7 +27,7 @@ Orders coefficients_of(const Orders& partial, std::size_t order) {
   return c;
 }
 
-// The other way round. Empty for a process that is not stationary, or hardly.
+// Partial correlations of a process from its coefficients. Empty for a process that is not, or hardly, stationary.
 std::optional<Orders> partial_of(Orders c, std::size_t order) {
   Orders partial{};
   for (std::size_t k = order; k-- > 0;) {
@@ -58,10 +58,10 @@ std::optional<Orders> solved(OrderMatrix l, Orders right, std::size_t order) {
   return right;
 }
 
-// Minimum by Newton's method, within the stationary processes. Empty if it does not end.
+// Minimum by Newton's method, within the stationary processes. Empty if it does not converge.
 std::optional<Orders> stepped_minimum(const LaggedProducts& products, std::size_t order, Orders coefficients) {
   constexpr int kMostSteps = 20, kHalvings = 8;
-  constexpr double kClose = 1e-6;  // the error of a step is about the square
+  constexpr double kClose = 1e-6;  // size of the last step, whose error is about its square
   Deviance here = deviance_with_slopes(products, coefficients, order);
   for (int step = 0; step < kMostSteps; ++step) {
     auto change = solved(here.curvature, here.gradient, order);
@@ -144,7 +144,7 @@ std::vector<double> noise_coefficients(std::span<const double> residuals, std::s
   std::vector<double> best;
   double least = deviance(products, coefficients, 0);
   for (std::size_t order = 1; order <= kMostNoiseOrder; ++order) {
-    // from those of the order before, and a zero
+    // start from the order before, and a zero
     const auto stepped = stepped_minimum(products, order, coefficients);
     const bool ends = stepped && !is_lower_at_the_edge(products, order, *stepped);
     coefficients =
@@ -164,7 +164,7 @@ std::size_t whiten(std::span<const double> coefficients, std::span<double> value
   for (std::size_t t = order; t < values.size(); ++t) {
     double white = values[t];
     for (std::size_t j = 0; j < order; ++j) white -= coefficients[j] * values[t - 1 - j];
-    values[t - order] = white;  // an earlier one, which nobody needs any more
+    values[t - order] = white;  // place of an earlier value that is not needed any more
   }
   return values.size() - order;
 }

@@ -15,11 +15,11 @@ inline constexpr std::size_t kMostNoiseOrder = 4;
 // by column.
 std::vector<double> noise_coefficients(std::span<const double> residuals, std::span<const double> jacobian);
 
-// values_t - sum_j c_j values_(t-j), the first ones dropped. Returns the number of values left; in place.
+// Replaces the values by values_t - sum_j c_j values_(t-j), the first ones dropped. Returns the number of values left.
 std::size_t whiten(std::span<const double> coefficients, std::span<double> values);
 
 // Probability that signs in random order have as few runs, or fewer (Wald & Wolfowitz 1940, normal approximation):
-// those before `split` and from it on, each around its own median. 1 if both are too short.
+// signs before `split` and from it on, each around its own median. 1 if both are too short.
 double runs_probability(std::span<const double> residuals, std::size_t split = 0);
 
 }  // namespace afm::fits

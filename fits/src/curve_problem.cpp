@@ -27,8 +27,8 @@ CurveProblem::CurveProblem(std::span<const Sample> samples, const FitSetup& setu
   }
 }
 
-// In series with the lever, some samples at once. The arrays are reached by pointers: a check of each index would cost
-// as much as the arithmetic.
+// Presses in series with the lever, some samples at once. Arrays are reached by pointers: a check of each index would
+// cost as much as the arithmetic.
 void CurveProblem::press(CurveModel& model) const {
   constexpr std::size_t kAtOnce = PressedLever::kAtOnce;
   const double spring = setup_.spring_n_per_m, contact_m = model.unknowns[kContact], level_n = model.unknowns[kLevel];
@@ -68,7 +68,7 @@ void CurveProblem::press(CurveModel& model) const {
     const double to_contact_m = contact_m - z_m[t];
     if (!(to_contact_m > 0.0)) continue;
     // at first from the depth that was measured
-    constexpr double kLeast = 0.01;  // share of the way
+    constexpr double kLeast = 0.01;  // smallest start as a share of the way
     sample[waiting] = t;
     way[waiting] = to_contact_m;
     start[waiting] = near[t] > 0.0 ? near[t]

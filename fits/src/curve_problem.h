@@ -20,14 +20,14 @@ inline constexpr std::size_t kModulus = 0, kContact = 1, kLevel = 2, kTilt = 3;
 
 // The model at all samples, for one set of unknowns.
 struct CurveModel {
-  Unknowns unknowns;                // empty: not computed yet
-  std::vector<double> residual_n;   // model, with its baseline, less measured
-  std::vector<double> depth_m;      // 0 where the tip is free
-  std::vector<std::uint8_t> touch;  // 1 where the tip touches
+  Unknowns unknowns;                // unknowns of the model; empty: not computed yet
+  std::vector<double> residual_n;   // model, with its baseline, minus measured force
+  std::vector<double> depth_m;      // depths of the tip; 0 where it is free
+  std::vector<std::uint8_t> touch;  // flag of each sample, 1: the tip touches
   // derivatives of the force by the unknowns; 0 where the tip is free
   std::vector<double> by_modulus_n, by_contact_n_per_m, by_work_n;
-  std::vector<double> near;     // ends of the searches for the depths, where the next ones begin; 0: none yet
-  std::size_t first_touch = 0;  // sample; the number of samples if none touches
+  std::vector<double> near;     // results of the searches for the depths, from which the next ones begin; 0: none yet
+  std::size_t first_touch = 0;  // index of the first touching sample; the number of samples if none touches
 };
 
 // The curve as a problem of least squares. Lengths are in metres. One thread.
@@ -38,10 +38,10 @@ class CurveProblem {
   std::size_t size() const { return z_m_.size(); }
   std::size_t unknown_count() const { return 3U + (setup_.tilt ? 1U : 0U) + (is_adhesive_ ? 1U : 0U); }
   bool is_adhesive() const { return is_adhesive_; }
-  std::size_t work() const { return unknown_count() - 1; }  // place of the work of adhesion, if there is one
+  std::size_t work() const { return unknown_count() - 1; }  // index of the work of adhesion, if there is one
 
-  // Best modulus for this contact point, the mean of the outer samples as level: where a fit begins. Empty if nothing
-  // pushes there.
+  // Best modulus for this contact point, with the mean of the outer samples as level: the start of a fit. Empty without
+  // a push there.
   std::optional<Unknowns> start_at(double contact_m) const;
 
   // Minimum of the whitened residuals. The unknown `held` stays. Returns the sum of squares. `reduction` as of
@@ -49,13 +49,13 @@ class CurveProblem {
   double minimise(Unknowns& unknowns, std::span<const double> noise = {}, std::optional<std::size_t> held = {},
                   double reduction = kWholeReduction) const;
 
-  // Valid until the next call with other unknowns; costs nothing with those of the last one.
+  // Model for these unknowns. Valid until the next call with other unknowns; costs nothing with those of the last one.
   const CurveModel& model(const Unknowns& unknowns) const;
 
-  // Products of the whitened columns there.
+  // Products of the whitened columns for these unknowns.
   Gram gram(const Unknowns& unknowns, std::span<const double> noise) const;
 
-  // Model less measured, and its derivatives, column by column; without noise's whitening.
+  // Model minus measured force, and its derivatives, column by column, not whitened.
   std::vector<double> residuals(const Unknowns& unknowns) const { return model(unknowns).residual_n; }
   std::vector<double> jacobian(const Unknowns& unknowns) const;
 
@@ -67,9 +67,9 @@ class CurveProblem {
   FitSetup setup_;
   bool is_adhesive_;
   std::vector<double> z_m_, force_n_;
-  std::vector<double> way_m_;  // distance from the first sample, for the tilt
+  std::vector<double> way_m_;  // distance of each sample from the first one, for the tilt
   std::vector<bool> sticks_;
-  mutable CurveModel last_;  // solver and verdict ask for the same unknowns again and again
+  mutable CurveModel last_;  // newest model, because solver and verdict request the same unknowns repeatedly
 };
 
 }  // namespace afm::fits

@@ -17,7 +17,7 @@ namespace {
 
 using Side = DoubtRow::Side;
 
-// Greatest force above the baseline.
+// Largest force above the baseline.
 double greatest_push_n(std::span<const Sample> samples, const ElasticFit& fit) {
   double greatest = 0.0;
   for (const Sample& sample : samples) {
@@ -29,7 +29,7 @@ double greatest_push_n(std::span<const Sample> samples, const ElasticFit& fit) {
 // Smallest step between two forces, of a range of forces; of a digitised curve that of its converter. 0 where forces
 // differ by their rounding alone.
 double smallest_step_n(std::span<const Sample> samples, double range_n) {
-  constexpr double kSame = 1e-6;  // share of the range
+  constexpr double kSame = 1e-6;  // equality as a share of the range
   std::vector<double> forces;
   forces.reserve(samples.size());
   for (const Sample& sample : samples) forces.push_back(sample.force_n);
@@ -43,7 +43,7 @@ double smallest_step_n(std::span<const Sample> samples, double range_n) {
   return smallest;
 }
 
-// The same, but any step below `enough_n` is small enough: mostly a few samples have one.
+// Smallest step as above, but any step below `enough_n` suffices: mostly a few samples have one.
 double step_n(std::span<const Sample> samples, double enough_n) {
   constexpr std::size_t kFew = 64;
   const auto [low, high] = std::minmax_element(samples.begin(), samples.end(),
@@ -111,7 +111,7 @@ class Judge {
 
   // The noise moves the hardest of many pulls, and the place at which a lever lets go.
   void judge_pull_off(ElasticFit& fit) const {
-    constexpr double kMoved = 4.0;  // standard deviations
+    constexpr double kMoved = 4.0;  // allowed shift in standard deviations
     const double moved_n = kMoved * fit.noise_n, moved_m = moved_n / setup_.spring_n_per_m;
     const double off_n = std::abs(fit.adhesion->pull_off_n - setup_.pull_off_n);
     add(fit, Doubt::PullOffForce, std::max(off_n - moved_n, 0.0) / setup_.pull_off_n);
@@ -234,7 +234,7 @@ double points_at_greatest_force(std::span<const Sample> samples, double toleranc
   for (const Sample& sample : samples) greatest_n = std::max(greatest_n, sample.force_n);
   // a noise that a bad fit has found is no measure of what is equal
   const double equal_n = std::max(1e-9 * greatest_n, std::min(tolerance_n, half_a_step_n(samples)));
-  std::vector<double> runs;  // points in a row at a force that is pushed, but not the greatest
+  std::vector<double> runs;  // numbers of successive points at a pushing force below the largest
   double at_greatest = 0.0, in_row = 0.0, run = 0.0;
   for (std::size_t t = 0; t < samples.size(); ++t) {
     in_row = samples[t].force_n >= greatest_n - equal_n ? in_row + 1.0 : 0.0;

@@ -10,9 +10,9 @@
 
 namespace afm::fits {
 
-inline constexpr std::size_t kFewest = 10;  // points of a fit
+inline constexpr std::size_t kFewest = 10;  // smallest number of points of a fit
 inline constexpr double kRounding =
-    1e-6;  // share of the push; smaller residuals are rounding, and say nothing of the shape
+    1e-6;  // share of the push below which residuals are rounding errors without information on the shape
 
 // Level and tilt at a sample.
 double baseline_n(const ElasticFit& fit, const Sample& sample, const Sample& first);

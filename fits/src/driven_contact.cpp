@@ -13,7 +13,7 @@ struct DrivenContact::Law {
   Indenter indenter;
   double modulus_pa, spring_n_per_m;
   std::optional<AdhesiveBranch> sticking{};  // branch of a law of adhesion
-  double near = 0;                           // end of the last search: parameter of the branch, or depth in m
+  double near = 0;                           // result of the last search: parameter of the branch, or depth in m
 };
 
 DrivenContact::DrivenContact(const Indenter& indenter, double reduced_modulus_pa, double work_j_per_m2,
@@ -43,7 +43,7 @@ DrivenContact::State DrivenContact::touching(double way_m) {
   return {found.depth_m, law_->modulus_pa * found.push.force};
 }
 
-// By bisection; the force grows with a way that pushes, and the lever alone bends by F/k.
+// Finds the way by bisection; the force grows with a way that pushes, and the lever by itself bends by F/k.
 double DrivenContact::way_of(double force_n) {
   constexpr int kHalvings = 60;
   double less_m = 0.0, more_m = force_n / law_->spring_n_per_m;

@@ -29,7 +29,7 @@ Span heights_of(std::span<const Sample> samples) {
   return {low->z_m, high->z_m};
 }
 
-// Means of neighbours, so that looking for the best start costs little.
+// Means of neighbours, so that the search for the best start costs little.
 std::vector<Sample> thinned(std::span<const Sample> samples) {
   constexpr std::size_t kLeft = 256;
   if (samples.size() <= 2 * kLeft) return {samples.begin(), samples.end()};
@@ -53,9 +53,9 @@ double force_range_n(std::span<const Sample> samples) {
   return high->force_n - low->force_n;
 }
 
-// Those of the analysis and three more; of some close to each other the first, since all lead to one minimum.
+// Contact points of the analysis and three more; of some close to each other the first, since all lead to one minimum.
 std::vector<double> starts_between(double low_m, double high_m, const std::vector<double>& given) {
-  constexpr double kSame = 1.0 / 40.0;  // share of the way
+  constexpr double kSame = 1.0 / 40.0;  // smallest distance of two starts, as a share of the way
   std::vector<double> starts;
   starts.reserve(given.size() + 3);
   const auto add = [&](double start) {
@@ -67,7 +67,7 @@ std::vector<double> starts_between(double low_m, double high_m, const std::vecto
   return starts;
 }
 
-// Neighbours differ as those of white noise do, by twice their squares (von Neumann 1941): no curve is left in them.
+// True if neighbours differ as in white noise, by twice their squares (von Neumann 1941): no curve is left in them.
 bool are_random(const std::vector<double>& residuals) {
   constexpr double kLeast = 1.5;
   double squares = 0.0, differences = 0.0;
@@ -136,13 +136,13 @@ Ended minimum(const CurveProblem& problem, const Unknowns& start, bool white) {
     ended.noise = std::move(noise);
     ended.squares = problem.minimise(ended.unknowns, ended.noise);
   }
-  constexpr double kLeftCurve = 4.0;  // largest ratio of the sums of squares
+  constexpr double kLeftCurve = 4.0;  // largest ratio of the sums of squares that leaves no curve
   const bool left = !is_usable(ended.unknowns, ended.squares) ||
                     squares_of(problem.residuals(ended.unknowns)) > kLeftCurve * white_noise.squares;
   return left ? white_noise : ended;
 }
 
-// Why no fit is tried; empty if one is.
+// Reason why no fit is attempted; empty if one is.
 std::string refusal_of(std::span<const Sample> samples, const FitSetup& setup) {
   const auto finite = [](const Sample& s) { return std::isfinite(s.z_m) && std::isfinite(s.force_n); };
   if (samples.size() < kFewest) return "it has fewer than 10 points of an approach";
@@ -159,7 +159,7 @@ std::string refusal_of(std::span<const Sample> samples, const FitSetup& setup) {
              : "";
 }
 
-// A contact point that lies farther from the data than these are long is none.
+// False for a contact point farther from the data than the data are long.
 bool is_contact(const Ended& ended, std::span<const Sample> samples) {
   const auto [low_m, high_m] = heights_of(samples);
   const double contact_m = ended.unknowns[kContact];
@@ -191,8 +191,8 @@ Profiled profiled(std::size_t unknown, const CurveProblem& problem, const Ended&
   return {{low.value, high.value}, low.lower ? low.lower : high.lower};
 }
 
-// With its interval, if one is wanted; a better minimum that is met on the way to an end becomes the start of another
-// fit. Empty without a contact.
+// Minimum with its interval, if requested; a better minimum found on the way becomes the start of another fit. Empty
+// without a contact.
 std::optional<Minimum> minimum_with_interval(const CurveProblem& problem, std::span<const Sample> samples,
                                              const Unknowns& start, const FitSetup& setup) {
   constexpr int kMostRestarts = 4;
@@ -286,7 +286,7 @@ std::optional<ElasticFit> fit_shape(std::span<const Sample> samples, const FitSe
   return found;
 }
 
-// From Maugis' law, which has the others as its limits, until the law stays; a curve between two laws is Maugis'.
+// Starts from Maugis' law, whose limits the others are, until the law stays; a curve between two laws is Maugis'.
 std::optional<ElasticFit> fit_by_tabor(std::span<const Sample> samples, const FitSetup& setup, std::string& why) {
   constexpr std::size_t kMostRounds = 4;
   FitSetup tried(setup);
@@ -294,7 +294,7 @@ std::optional<ElasticFit> fit_by_tabor(std::span<const Sample> samples, const Fi
   std::optional<ElasticFit> last;
   for (std::size_t round = 1;; ++round) {
     auto found = fit_shape(samples, tried, why);
-    if (!found) return last;  // a law that does not fit leaves that of the round before
+    if (!found) return last;  // fallback to the law of the previous round
     const Shape law = law_of_tabor(found->adhesion->tabor);
     found->adhesion->rounds = round;
     if (law == tried.indenter.shape || round > kMostRounds) return found;

@@ -71,7 +71,7 @@ void Gram::add(const Columns& columns, std::span<const double> noise, std::size_
   });
 }
 
-// With L of the Cholesky factors the Jacobian is its transpose; a column that depends on those before gets none.
+// Jacobian of few rows: the transpose of the Cholesky factor L; a column that depends on those before gets none.
 Gram::Few Gram::few(std::optional<std::size_t> held) const {
   std::array<std::size_t, kMostUnknowns> freed{};
   Few found;

@@ -12,13 +12,13 @@ inline constexpr std::size_t kMostUnknowns = 5;
 
 // Columns of a Jacobian, with the residuals as the first. That of the level is 1 everywhere, and not among them.
 struct Columns {
-  static constexpr std::size_t kMost = kMostUnknowns;  // residuals, and all unknowns but the level
+  static constexpr std::size_t kMost = kMostUnknowns;  // limit: residuals, and all unknowns but the level
 
   std::array<const double*, kMost> values{};
-  std::array<std::size_t, kMost> unknowns{};  // place of each column among the unknowns
-  std::size_t count = 0, dense = 0;           // the columns after the dense ones are 0 before the sample `late`
-  std::size_t late = 0, size = 0;             // samples
-  std::size_t level = 0;                      // its unknown
+  std::array<std::size_t, kMost> unknowns{};  // index of each column's unknown
+  std::size_t count = 0, dense = 0;           // columns; the ones after `dense` are 0 before the sample `late`
+  std::size_t late = 0, size = 0;             // first sample of the other columns, number of samples
+  std::size_t level = 0;                      // index of the level's unknown
 };
 
 // Sums over the whitened curve of the products of the columns of its Jacobian and its residuals: all that least squares
@@ -40,7 +40,7 @@ class Gram {
   };
   Few few(std::optional<std::size_t> held) const;
 
-  // Sum of squares of what the other columns leave of this one's. 0 if the columns are not independent.
+  // Sum of squares of the column's part that is independent of the other columns. 0 if it has none.
   double own(std::size_t unknown) const;
 
   // Step of all unknowns to where the sum of squares, least over the others and linearised here, is `squares`; of the
@@ -56,13 +56,13 @@ class Gram {
   void put(std::size_t row, std::size_t column, double value);
 
   struct Eliminated {
-    std::array<std::size_t, kMostUnknowns + 1> order{};  // the others, the unknown, the residuals
-    Matrix rows{};                                       // remainder of the columns before, up to the diagonal
+    std::array<std::size_t, kMostUnknowns + 1> order{};  // indices of the other unknowns, this one, the residuals
+    Matrix rows{};                                       // remainders after elimination, up to the diagonal
   };
   std::optional<Eliminated> without_others(std::size_t unknown) const;
 
   std::size_t unknowns_;
-  Matrix products_{};  // the residuals last
+  Matrix products_{};  // sums of products, with the residuals last
 };
 
 }  // namespace afm::fits

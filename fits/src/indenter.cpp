@@ -21,7 +21,7 @@ Push paraboloid(double radius_m, double depth_m) {
 
 // (F2) in units of R and E*: with x = a/R, d/R = x artanh(x), F = (1 + x^2) artanh(x) - x, dF/dd = 2 x
 Push unit_sphere(double depth) {
-  double y = std::sqrt(depth * (1.0 + depth / 3.0)), x = 0.0;  // artanh(x), by Halley's method from above, and x
+  double y = std::sqrt(depth * (1.0 + depth / 3.0)), x = 0.0;  // y = artanh(x), by Halley's method from above, and x
   for (int i = 0; i < 12; ++i) {
     x = std::tanh(y);
     const double square = (1.0 - x) * (1.0 + x);
@@ -58,7 +58,7 @@ class ShallowSphere {
     for (std::size_t k = 0; k < kTerms; ++k) force_[k] = slope_[k] / (1.0 + 2.0 / 3.0 * static_cast<double>(k));
   }
 
-  // Shares of force and slope.
+  // Force and slope as shares of the paraboloid's.
   Push at(double t) const {
     Push share;
     for (std::size_t k = kTerms; k-- > 0;) {
@@ -122,13 +122,13 @@ Push in_exact_layer(const Push& thick, double s, double power, double depth_m, c
           stiffer.factor * (thick.slope + thick.force * stiffer.slope * power * s / depth_m)};
 }
 
-constexpr std::array<double, 4> kGarciaSphere{1.133, 1.497, 1.469, 0.755};  // (F4)
-constexpr std::array<double, 4> kGarciaCone{0.721, 0.650, 0.491, 0.225};    // (F5)
+constexpr std::array<double, 4> kGarciaSphere{1.133, 1.497, 1.469, 0.755};  // coefficients of (F4)
+constexpr std::array<double, 4> kGarciaCone{0.721, 0.650, 0.491, 0.225};    // coefficients of (F5)
 
 // (F6): the rounded coefficients of the paper, for a bonded layer of nu = 0.5
 constexpr std::array<double, 4> kDimitriadis{1.133, 1.283, 0.769, 0.0975};
 
-// Of a layer: contact radius, or depth for a sharp tip, over thickness.
+// Strain of a layer: contact radius, or depth for a sharp tip, over thickness.
 double strain_of(const ShapeRow& row, const Indenter& indenter, double depth_m) {
   if (row.has_radius) return std::sqrt(indenter.radius_m * depth_m) / indenter.layer_m;
   return depth_m * std::tan(indenter.half_angle_rad) / indenter.layer_m;

@@ -10,7 +10,7 @@ namespace afm::fits {
 
 namespace {
 
-// Keeps the elimination well conditioned.
+// Size of a column, by which it is divided to keep the elimination well conditioned.
 double size_of(std::span<const double> column) {
   double largest = 0.0;
   for (std::size_t t = 0; t < column.size(); t += std::max<std::size_t>(1, column.size() / 64)) {
@@ -36,7 +36,7 @@ LaggedProducts::LaggedProducts(std::span<const double> residuals, std::span<cons
 template <std::size_t width>
 void LaggedProducts::sum(std::span<const double> residuals, std::span<const double> jacobian) {
   const std::size_t n = residuals.size();
-  std::vector<double> rows(n * width);  // by time, the residual first
+  std::vector<double> rows(n * width);  // values by time, the residual first
   for (std::size_t t = 0; t < n; ++t) rows[t * width] = residuals[t];
   for (std::size_t c = 1; c < columns_; ++c) {
     const std::span<const double> column = jacobian.subspan((c - 1) * n, n);

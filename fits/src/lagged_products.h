@@ -26,16 +26,16 @@ class LaggedProducts {
   // More residuals than kMostNoiseOrder, at most kMostUnknowns columns.
   LaggedProducts(std::span<const double> residuals, std::span<const double> jacobian);
 
-  std::size_t columns() const { return columns_; }  // number of columns, residuals included
+  std::size_t columns() const { return columns_; }  // number of columns, including the residuals
   std::size_t entries() const { return columns_ * (columns_ + 1) / 2; }
   double count() const { return static_cast<double>(count_); }
 
-  // Of two different lags the sum of both orders, since a filter weighs them alike.
+  // Sum at two lags; for different lags the sum of both orders, since a filter weighs them alike.
   const Triangle& of(std::size_t lag, std::size_t other) const {
     return lag < other ? of(other, lag) : sums_[lag * (lag + 1) / 2 + other];
   }
 
-  // Products of the whitened columns. The filter is 1 and the negative coefficients.
+  // Products of the whitened columns. The filter is 1 followed by the negative coefficients.
   Triangle whitened(std::span<const double> filter) const;
 
  private:

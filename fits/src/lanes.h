@@ -19,7 +19,7 @@ inline Two two_at(const double* values) {
 
 inline double sum_of(Two two) { return two[0] + two[1]; }
 
-// f(0) to f(count - 1), without a loop, so that arrays of that length stay in registers.
+// Calls f(0) to f(count - 1) without a loop, so that arrays of that length stay in registers.
 template <std::size_t count, class F>
 void unrolled(F&& f) {
   [&]<std::size_t... i>(std::index_sequence<i...>) {

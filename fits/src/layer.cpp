@@ -12,10 +12,10 @@ namespace afm::fits {
 
 namespace {
 
-constexpr std::size_t kNodes = 32;          // Gauss-Legendre nodes on the contact's radius
+constexpr std::size_t kNodes = 32;          // Gauss-Legendre nodes on the radius of the contact
 constexpr double kWidest = 3.0;             // largest contact radius over the thickness
 constexpr std::size_t kRadii = 160;         // number of tabulated contact radii
-constexpr std::size_t kKernelPoints = 800;  // on twice that radius
+constexpr std::size_t kKernelPoints = 800;  // grid points of the kernel, on twice that radius
 
 // Nodes and weights on 0 to 1, by Newton's method on the Legendre polynomial.
 struct Gauss {
@@ -56,7 +56,7 @@ double missing(Base base, double nu, double x) {
 class Kernel {
  public:
   Kernel(Base base, double nu) : values_(kKernelPoints + 3) {
-    constexpr double kEnd = 24.0;  // 1 - L is below 1e-18 there
+    constexpr double kEnd = 24.0;  // wave number at which 1 - L is below 1e-18
     const Gauss gauss(160);
     std::vector<double> shares;
     shares.reserve(gauss.nodes.size());
@@ -73,7 +73,7 @@ class Kernel {
     const double place = std::abs(v) / kStep;
     const auto i = std::min(static_cast<std::size_t>(place), kKernelPoints);
     const double t = place - static_cast<double>(i);
-    const double before = i > 0 ? values_[i - 1] : values_[1];  // it is even
+    const double before = i > 0 ? values_[i - 1] : values_[1];  // mirrored value, because the function is even
     const double a = values_[i], b = values_[i + 1], after = values_[i + 2];
     return a + 0.5 * t *
                    (b - before + t * (2.0 * before - 5.0 * a + 4.0 * b - after + t * (3.0 * (a - b) + after - before)));

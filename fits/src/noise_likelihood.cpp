@@ -46,7 +46,7 @@ double dot(const Vector& a, const Vector& b, std::size_t size) {
 // Eliminates the columns of the fit, from the last to the first after the residuals: with them the inverse of their
 // products, what is left of the residuals' square, and the determinant. By Gauss and Jordan.
 struct Eliminated {
-  Matrix inverse{};  // inverse matrix, with zeros in row and column of the residuals
+  Matrix inverse{};  // inverse matrix, with zeros in the row and column of the residuals
   double determinant = 1.0;
 };
 bool eliminate(const Matrix& products, std::size_t size, Eliminated& result) {
@@ -112,8 +112,8 @@ Deviance deviance_with_slopes(const LaggedProducts& products, const Orders& coef
   const double free = products.count() - static_cast<double>(size - 1);
   found.value = free * std::log(squares) + std::log(without.determinant);
 
-  std::array<Vector, kMostNoiseOrder> slope_after{}, moved{};  // M_l v, M_r^-1 of it
-  std::array<Matrix, kMostNoiseOrder> share{};                 // M_r^-1 M_l
+  std::array<Vector, kMostNoiseOrder> slope_after{}, moved{};  // M_l v, and M_r^-1 M_l v
+  std::array<Matrix, kMostNoiseOrder> share{};                 // products M_r^-1 M_l
   Orders squares_slope{};
   for (std::size_t l = 0; l < order; ++l) {
     LaggedProducts::Triangle slope{};

@@ -12,16 +12,16 @@ namespace afm::fits {
 using Orders = std::array<double, kMostNoiseOrder>;
 using OrderMatrix = std::array<Orders, kMostNoiseOrder>;
 
-// Twice the negative restricted log-likelihood of autoregressive noise with these coefficients, but for a constant.
+// Twice the negative restricted log-likelihood of autoregressive noise with these coefficients, up to a constant.
 // Infinite where the columns of the fit are not independent.
 double deviance(const LaggedProducts& products, const Orders& coefficients, std::size_t order);
 
-// With its derivatives by the coefficients.
+// Deviance with its derivatives by the coefficients.
 struct Deviance {
   double value = 0;
   Orders gradient{};
   OrderMatrix curvature{};
-  OrderMatrix rounder{};  // without the parts that may curve down: close to a minimum about the same
+  OrderMatrix rounder{};  // curvature without terms that may be negative; close to a minimum about the same
 };
 Deviance deviance_with_slopes(const LaggedProducts& products, const Orders& coefficients, std::size_t order);
 

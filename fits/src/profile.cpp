@@ -12,14 +12,14 @@ namespace afm::fits {
 
 namespace {
 
-constexpr double kFarthestWay = 5.0;  // way of a logarithm to the end
-constexpr double kCloseWay = 1e-3;    // share of the way
+constexpr double kFarthestWay = 5.0;  // limit of the change of a logarithm up to the end
+constexpr double kCloseWay = 1e-3;    // tolerance as a share of the way
 
 double free_of(const CurveProblem& problem, const Ended& ended) {
   return static_cast<double>(problem.size() - ended.noise.size() - problem.unknown_count());
 }
 
-// The fit was no minimum.
+// True if the sum of squares is lower than the fit's, which was no minimum.
 bool is_lower(double squares, const Ended& ended) {
   constexpr double kLower = 1e-6;
   return squares < ended.squares * (1.0 - kLower);

@@ -16,7 +16,7 @@ inline constexpr double kChiSquare95 = 3.841458820694124;  // 95 % quantile for 
 struct Ended {
   Unknowns unknowns;
   std::vector<double> noise;
-  bool filtered = false;  // the noise was found, and used
+  bool filtered = false;  // true: noise coefficients were found and used
   double squares = std::numeric_limits<double>::infinity();
 };
 
@@ -29,8 +29,8 @@ double deviation_of(std::size_t unknown, const CurveProblem& problem, const Ende
 // End of the interval of an unknown on one side: where the likelihood, maximised over the other unknowns, has fallen by
 // half the 95 % quantile of chi square.
 struct ProfileEnd {
-  double value = 0;               // infinite if no end was found
-  std::optional<Unknowns> lower;  // a better minimum that was met on the way
+  double value = 0;               // value at the end; infinite if there is none
+  std::optional<Unknowns> lower;  // better minimum found on the way; empty: none
 };
 // `side` is -1 or 1; `deviation` as above.
 ProfileEnd profile_end(std::size_t unknown, const CurveProblem& problem, const Ended& ended, double deviation,

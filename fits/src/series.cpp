@@ -6,10 +6,10 @@
 
 namespace afm::fits {
 
-// By Newton's method; F is convex, so that it comes from deeper from its second step on.
+// Solves by Newton's method; F is convex, so that it approaches from deeper from its second step on.
 InSeries in_series(const Indenter& indenter, double modulus_pa, double spring_n_per_m, double way_m, double near_m) {
   constexpr int kMostSteps = 60;
-  constexpr double kClose = 1e-7;  // the error of a step is the square
+  constexpr double kClose = 1e-7;  // size of the last step, whose error is its square
   double depth_m = std::clamp(near_m, 0.01 * way_m, way_m);
   Push push;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -28,11 +28,11 @@ InSeries in_series(const Indenter& indenter, double modulus_pa, double spring_n_
 PressedLever::PressedLever(const Indenter& indenter, double modulus_pa, double spring_n_per_m)
     : indenter_(indenter), power_(power_law_of(indenter)), modulus_pa_(modulus_pa), spring_n_per_m_(spring_n_per_m) {}
 
-// With the root u of the depth, u^2 + c u^3 = way, by Halley's method: from either side no step passes beyond 0. Two
-// pairs, so that one is worked on while the other waits for a division.
+// Solves u^2 + c u^3 = way for the root u of the depth by Halley's method: from either side no step passes beyond 0.
+// Two pairs, so that one is worked on while the other waits for a division.
 void PressedLever::blunt_at(const Four& way_m, Four& root, Pressed& pressed) const {
   constexpr int kMostSteps = 60;
-  constexpr double kClose = 1e-4;  // the error of a step is about the cube
+  constexpr double kClose = 1e-4;  // size of the last step, whose error is about its cube
   const double stiffness = modulus_pa_ * power_->coefficient, bent = stiffness / spring_n_per_m_;
   Four u(root);
   for (int i = 0; i < kMostSteps; ++i) {
@@ -56,7 +56,7 @@ void PressedLever::blunt_at(const Four& way_m, Four& root, Pressed& pressed) con
   root = u;
 }
 
-// d + c d^2 = way
+// Solves d + c d^2 = way.
 void PressedLever::sharp_at(const Four& way_m, Pressed& pressed) const {
   const double stiffness = modulus_pa_ * power_->coefficient, bent = stiffness / spring_n_per_m_;
   unrolled<2>([&](auto k) {

@@ -13,13 +13,13 @@ namespace afm::fits {
 // Lever and contact in series (F7): d + F(d)/k = way, without adhesion.
 struct InSeries {
   double depth_m = 0;
-  Push push;  // push at that depth
+  Push push;  // push at depth_m
 };
 
-// `way_m`, positive, is the way of the base beyond the contact point; `near_m` a depth from which the search begins.
+// Solves for the way of the base beyond the contact point, `way_m` > 0. The search begins at the depth `near_m`.
 InSeries in_series(const Indenter& indenter, double modulus_pa, double spring_n_per_m, double way_m, double near_m);
 
-// The same at many ways of one contact, four at once where the force is a power of the depth.
+// Lever and contact in series at many ways of one contact, four at once where the force is a power of the depth.
 class PressedLever {
  public:
   PressedLever(const Indenter& indenter, double modulus_pa, double spring_n_per_m);
@@ -28,9 +28,9 @@ class PressedLever {
   using Four = std::array<Two, 2>;
   struct Pressed {
     Four depth_m{}, force_n{};
-    Four slope_n_per_m{};  // contact alone, without the lever
+    Four slope_n_per_m{};  // stiffness of the contact without the lever
   };
-  // Ways as above. `root`: roots of the depths from which the search begins, positive; changed to those of its end.
+  // Solves for four ways. `root`: roots of the depths from which the search begins, positive; replaced by the result's.
   void at(const Four& way_m, Four& root, Pressed& pressed) const;
 
  private:

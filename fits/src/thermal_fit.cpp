@@ -24,7 +24,7 @@ static_assert(physics::has_row_for_each(kSpectrumDoubts, &SpectrumDoubtRow::doub
 namespace {
 
 constexpr std::size_t kFewestPoints = 20;
-constexpr double kNoResonance = 0.5;  // relative standard deviation of the area
+constexpr double kNoResonance = 0.5;  // deviation of the area from which there is no resonance, relative
 
 std::string refusal_of_spectrum(std::span<const SpectrumPoint> spectrum) {
   if (spectrum.size() < kFewestPoints) return "it has fewer than 20 points";
@@ -117,7 +117,7 @@ double sum_of_products(std::span<const double> deviations, std::size_t lag) {
 // correlates two on either side.
 double neighbour_factor_of(std::span<const double> deviations) {
   constexpr std::size_t kFarthest = 3;
-  constexpr double kChance = 3.0;  // standard deviations
+  constexpr double kChance = 3.0;  // correlation that is more than chance, in standard deviations
   const double squares = sum_of_products(deviations, 0);
   double factor = 1.0;
   for (std::size_t lag = 1; lag <= kFarthest && squares > 0.0; ++lag) {
@@ -142,9 +142,9 @@ double group_chi_square(std::span<const double> deviations, double variance) {
 
 void judge_spectrum(std::span<const SpectrumPoint> spectrum, std::span<const double> deviations,
                     std::optional<double> given, ThermalFit& fit) {
-  constexpr double kMostChiSquare = 39.25 / static_cast<double>(kGroups);  // 0.999 quantile
+  constexpr double kMostChiSquare = 39.25 / static_cast<double>(kGroups);  // 0.999 quantile over the number of groups
   constexpr double kFewestInWidth = 4.0, kMostDeviation = 0.1, kUsualScatter = 0.25, kChance = 4.0;
-  constexpr double kMostCorrelated = 2.5;  // a Hann window: 1.94
+  constexpr double kMostCorrelated = 2.5;  // largest factor of a window; a Hann window has 1.94
   const auto doubt = [&fit](bool found, SpectrumDoubt which, double figure, double limit) {
     if (found) fit.doubts.push_back({which, figure, limit});
   };

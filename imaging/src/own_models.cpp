@@ -31,7 +31,7 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-// A wider sample cannot be in true size, so it is scaled to this width.
+// Width to which a wider sample is scaled, because it cannot be shown in true size.
 constexpr double kWidestSampleM = 1e-6;
 constexpr double kFittedSampleM = 60e-9;
 
@@ -131,7 +131,7 @@ bool is_no_model(const std::string& path) {
   return file && (!(file >> first) || (first != '{' && first != 'g'));
 }
 
-// Why a file is neither a model nor an image, as far as its beginning shows, and what to do.
+// Reason why a file is neither a model nor an image, as far as its beginning shows, and what to do.
 std::string refusal_of_other(const std::string& file) {
   std::string neither =
       fmt::format("it is neither a glTF model nor an image that can be read ({}); export it in one of these formats",

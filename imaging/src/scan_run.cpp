@@ -26,7 +26,7 @@ namespace {
 using core::wrong_usage;
 using physics::ScanImage;
 
-constexpr std::size_t kManyLines = 1024;  // scans with at least this many lines take seconds and report progress
+constexpr std::size_t kManyLines = 1024;  // number of lines from which a scan takes seconds and reports progress
 
 physics::ScanSettings settings_of(const ScanRequest& request, const curves::ContactSetup& setup,
                                   const ScanSurface& surface) {
@@ -57,12 +57,12 @@ std::string words(std::string_view name) {
 
 bool taps(const ScanRequest& request) { return request.tapping.mode == "tapping"; }
 
-// In tapping mode the law of force decides instead.
+// True for settings that tapping mode does not use, because the law of force decides instead.
 bool only_in_contact(const physics::ScanField& field) {
   return field.name == "setpoint" || field.name == "adhesion" || field.name == "snap_in" || field.name == "friction";
 }
 
-// The amplitude that the feedback keeps, of a share of the free amplitude or a length.
+// The amplitude that the feedback keeps, given as a share of the free amplitude or a length.
 core::Result<physics::Length> setpoint_of(const std::string& text, physics::Length free_amplitude) {
   const auto share = physics::parse_si(text, "a share", physics::kPlainNumber.units, physics::Infinity::Refused);
   if (const double* number = std::get_if<double>(&share)) return *number * free_amplitude;
@@ -88,7 +88,7 @@ core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, c
   }
 }
 
-// As --method of touchafm curve.
+// Method in the words of --method of touchafm curve.
 const char* method_of(const physics::TappingDetector& detector) { return detector.is_direct() ? "direct" : "averaged"; }
 
 void describe(const ScanRequest& request, const curves::ContactSetup& setup, const physics::TipShape& tip, Scan& scan) {
@@ -289,7 +289,7 @@ nlohmann::json scan_json(const Scan& scan) {
   return result;
 }
 
-// The same grid without artefacts: at time zero, so that drift is one.
+// Image without artefacts on the same grid, at time zero, because drift is an artefact.
 ScanImage true_image_of(const Scan& scan) {
   ScanImage image(scan.image);
   image.channels = {{"Height without artefacts", "m", {}}};

@@ -16,8 +16,8 @@ namespace {
 constexpr double kMetresPerMillimetre = 1e-3;
 constexpr std::uint32_t kLargestId = 63;
 constexpr std::uint32_t kMostButtons = 32;
-constexpr std::size_t kMostGroups = 4;       // bracketed groups of a body or Flystick
-constexpr double kRotationTolerance = 1e-2;  // the protocol has six digits
+constexpr std::size_t kMostGroups = 4;       // largest number of bracketed groups of a body or Flystick
+constexpr double kRotationTolerance = 1e-2;  // tolerance of a rotation; the protocol has six digits
 
 // Remainder of a line. Every take() fails harmlessly on unexpected text.
 class Line {
@@ -58,7 +58,7 @@ class Line {
     return inside;
   }
 
-  // Goes on behind a broken group: DTrack puts a space before each body.
+  // Continues after a broken group: DTrack puts a space before each body.
   void skip_to_next_body() { rest_.remove_prefix(std::min(rest_.find(" [", 1), rest_.size())); }
 
   bool at_end() {
@@ -78,7 +78,7 @@ using Groups = std::array<std::string_view, kMostGroups>;
 
 constexpr std::string_view kBadNumber = "its number is not one of 0 to 63";
 
-// `b0 ... b8`: tracker_from_body, column by column. Returns the fault, or an empty text.
+// Reads `b0 ... b8`: tracker_from_body, column by column. Returns the fault, or an empty text.
 std::string_view take_rotation(std::string_view group, DtrackBody& body) {
   if (!body.tracked) return {};
   std::array<double, 9> b{};
@@ -94,7 +94,7 @@ std::string_view take_rotation(std::string_view group, DtrackBody& body) {
   return {};
 }
 
-// `x y z` in millimetres, perhaps with angles behind them, and the matrix.
+// Reads `x y z` in millimetres, perhaps with angles after them, and the matrix.
 std::string_view take_pose(const Groups& groups, DtrackBody& body) {
   std::array<double, 3> millimetres{};
   if (body.tracked && !Line(groups[1]).take_finite(millimetres)) return "its position does not consist of numbers";
@@ -102,7 +102,7 @@ std::string_view take_pose(const Groups& groups, DtrackBody& body) {
   return take_rotation(groups[2], body);
 }
 
-// `id quality`; a negative quality means that there is no pose.
+// Reads `id quality`; a negative quality means that there is no pose.
 std::string_view take_head(Line& line, DtrackBody& body) {
   double quality = 0.0;
   if (!line.take(body.id) || body.id > kLargestId) return kBadNumber;
@@ -111,14 +111,14 @@ std::string_view take_head(Line& line, DtrackBody& body) {
   return {};
 }
 
-// 6d: [id quality][x y z eta theta phi][b0 ... b8]
+// Reads a body of 6d: [id quality][x y z eta theta phi][b0 ... b8].
 std::string_view take_optical(const Groups& groups, DtrackFlystick& read) {
   Line head(groups[0]);
   const std::string_view fault = take_head(head, read.body);
   return fault.empty() ? take_pose(groups, read.body) : fault;
 }
 
-// 6di: [id state error][x y z][b0 ... b8]; state 0 is not tracked, 1 inertial, 2 optical, 3 both
+// Reads a body of 6di: [id state error][x y z][b0 ... b8]; state 0 is not tracked, 1 inertial, 2 optical, 3 both.
 std::string_view take_hybrid(const Groups& groups, DtrackFlystick& read) {
   Line head(groups[0]);
   std::uint32_t state = 0;
@@ -128,7 +128,7 @@ std::string_view take_hybrid(const Groups& groups, DtrackFlystick& read) {
   return take_pose(groups, read.body);
 }
 
-// 6df2: [id quality buttons joysticks][x y z][b0 ... b8][words of buttons, joysticks]
+// Reads a Flystick of 6df2: [id quality buttons joysticks][x y z][b0 ... b8][words of buttons, joysticks].
 std::string_view take_flystick(const Groups& groups, DtrackFlystick& read) {
   Line head(groups[0]), controls(groups[3]);
   if (const std::string_view fault = take_head(head, read.body); !fault.empty()) return fault;
@@ -145,7 +145,7 @@ std::string_view take_flystick(const Groups& groups, DtrackFlystick& read) {
   return take_pose(groups, read.body);
 }
 
-// 6df, of Flystick 1: [id quality buttons][x y z eta theta phi][b0 ... b8]. Its hat switch is bits 4 to 7.
+// Reads a Flystick 1 of 6df: [id quality buttons][x y z eta theta phi][b0 ... b8]. Its hat switch is bits 4 to 7.
 std::string_view take_first_flystick(const Groups& groups, DtrackFlystick& read) {
   constexpr std::uint32_t kDown = 0x10, kLeft = 0x20, kUp = 0x40, kRight = 0x80;
   Line head(groups[0]);
@@ -159,14 +159,14 @@ std::string_view take_first_flystick(const Groups& groups, DtrackFlystick& read)
   return take_pose(groups, read.body);
 }
 
-// Line with several bodies: how each is read.
+// Kind of line with several bodies, and its reader.
 struct BodyLine {
   std::string_view name;
   std::string_view subject;
   std::size_t groups;
   std::string_view (*take)(const Groups& groups, DtrackFlystick& read);
   bool flysticks;
-  bool calibrated;  // the number of calibrated ones comes before the number of those in the line
+  bool calibrated;  // true: the number of calibrated bodies precedes the number of those in the line
 };
 constexpr std::array kBodyLines{
     BodyLine{"6d", "body", 3, take_optical, false, false},
@@ -187,7 +187,7 @@ const DtrackBody& body_of(const DtrackBody& body) { return body; }
 const DtrackBody& body_of(DtrackBody&& body) = delete;
 const DtrackBody& body_of(const DtrackFlystick& stick) { return stick.body; }
 
-// Adds what has a new number. The same body of another line counts if the first one is not tracked.
+// Adds a body with a new number. The same body of another line counts if the first one is not tracked.
 template <class Body, std::size_t Size>
 void add_body(const Body& body, std::array<Body, Size>& bodies, std::size_t& count) {
   const auto end = bodies.begin() + static_cast<std::ptrdiff_t>(count);
@@ -196,7 +196,7 @@ void add_body(const Body& body, std::array<Body, Size>& bodies, std::size_t& cou
   if (same != end && !body_of(*same).tracked) *same = body;
 }
 
-// One body of the line, or the fault that leaves it out.
+// Reads one body of the line, or returns the fault that leaves it out.
 std::string_view take_body(Line& line, const BodyLine& kind, DtrackFlystick& read, bool& has_id) {
   Groups groups;
   for (std::size_t i = 0; i < kind.groups; ++i) {

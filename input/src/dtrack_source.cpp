@@ -114,7 +114,7 @@ bool DtrackSource::receive(int patience_ms) {
     ++now_.bad_packets;
     now_.faults = refused;
   } else if (!is_silent() && static_cast<std::int32_t>(frame->frame - now_.frame.frame) <= 0) {
-    ++now_.old_packets;  // frame numbers wrap around
+    ++now_.old_packets;  // late frame, unless the numbers wrap around
   } else {
     if (!is_silent()) count_lost(frame->frame - now_.frame.frame);
     now_.frame = *frame;

@@ -12,8 +12,8 @@ namespace afm::input {
 namespace {
 
 constexpr double kVelocityMemoryS = 0.03;  // averaging time of the velocity
-constexpr double kLongestGapS = 0.1;       // longer gaps between two poses give no velocity
-constexpr double kFastestHeadMPerS = 3.0;  // above this, the tracker has confused its markers
+constexpr double kLongestGapS = 0.1;       // longest gap between two poses that gives a velocity
+constexpr double kFastestHeadMPerS = 3.0;  // speed above which the tracker has confused its markers
 
 bool finite(const scene::HeadPose& head) {
   const auto& p = head.position_m;

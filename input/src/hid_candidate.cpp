@@ -23,7 +23,7 @@ namespace {
 constexpr std::int64_t kFirstOpenPauseNs = 100'000'000;
 constexpr std::int64_t kLongestOpenPauseNs = 6'400'000'000;
 constexpr int kMostReportsAPoll = 64;
-constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // a Wii Remote drops an output report sent sooner
+constexpr auto kSetUpPause = std::chrono::milliseconds(20);  // pause between reports; a Wii Remote drops an earlier one
 constexpr std::size_t kLongestReport = 256;
 constexpr const char* kRule =
     "copy 70-touchafm-wands.rules (in assets/wands; in a bundle: lib/udev/rules.d) to /etc/udev/rules.d, "
@@ -77,7 +77,7 @@ struct HidCandidate::Device {
         std::vector<std::uint8_t> report(request->size);
         report[0] = request->id;
         const int got = hid_get_feature_report(handle, report.data(), report.size());
-        if (got < 0) continue;  // falls back to nominal numbers
+        if (got < 0) continue;  // fallback to nominal numbers
         report.resize(static_cast<std::size_t>(got));
         reports.push_back(std::move(report));
       }

@@ -57,15 +57,15 @@ class HidCandidate {
   std::unique_ptr<HidWand> wand_;
   std::int64_t next_open_ns_ = 0;
   std::int64_t open_pause_ns_;
-  std::string complaint_;  // as last logged
+  std::string complaint_;  // reason last logged
   WandState state_;
-  WandState earlier_;            // state that the use is judged against
-  std::int64_t earlier_ns_ = 0;  // time of that state
-  std::int64_t steady_ns_ = 0;   // end of the time in which a motion sensor settles
+  WandState earlier_;            // earlier state, for comparison with the newest one
+  std::int64_t earlier_ns_ = 0;  // time of the earlier state
+  std::int64_t steady_ns_ = 0;   // time at which a motion sensor has settled
   std::int64_t used_ns_ = 0;
   std::uint32_t counted_stops_ = 0;
-  std::uint64_t refused_ = 0;       // reports that the driver did not understand
-  std::uint64_t next_refusal_ = 1;  // number of them to log next
+  std::uint64_t refused_ = 0;       // number of reports that the driver did not understand
+  std::uint64_t next_refusal_ = 1;  // number of such reports at which the next line is logged
 };
 
 }  // namespace afm::input

@@ -54,7 +54,7 @@ class MappedWand final : public HidDriver {
   }
 
   bool steered() const override {
-    if (mapping_.axes.empty()) return false;  // a pedal does not point
+    if (mapping_.axes.empty()) return false;  // no direction of a pedal
     return std::none_of(mapping_.axes.begin(), mapping_.axes.end(), [](const HidMapping::Axis& axis) {
       return axis.quantity == HidMapping::Quantity::Gyro || axis.quantity == HidMapping::Quantity::Acceleration;
     });

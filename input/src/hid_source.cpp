@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t kLookPauseNs = 1'000'000'000;
 constexpr int kReadPatienceMs = 10;
-constexpr std::int64_t kKeepNs = 1'000'000'000;  // a wand that is in use keeps its place for so long
+constexpr std::int64_t kKeepNs = 1'000'000'000;  // time for which a used wand keeps its place
 
 struct Seen {
   std::string path;
@@ -52,8 +52,8 @@ std::vector<Seen> enumerate(const std::vector<HidMapping>& mappings) {
   return seen;
 }
 
-// True for what `touchafm devices` prints of a device: its node, its numbers, or a part of its name. A pedal is always
-// meant.
+// True for a device whose node, numbers or part of the name, as printed by `touchafm devices`, were requested. A pedal
+// is always meant.
 bool is_meant(const Seen& seen, const std::string& wanted) {
   const auto lower = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -154,7 +154,7 @@ void HidSource::follow(HidCandidate& candidate, const std::string& place) {
   core::log_line(fmt::format("wand: {}{}", candidate.name(), place));
 }
 
-// Takes the wand used last, unless the present one is in use.
+// Selects the wand used last, unless the present one is in use.
 void HidSource::choose(std::int64_t now_ns) {
   if (followed_ != nullptr && followed_->used_ns() != 0 &&
       (now_ns - followed_->used_ns() < kKeepNs || followed_->state().buttons != 0)) {
@@ -168,7 +168,7 @@ void HidSource::choose(std::int64_t now_ns) {
   if (newest != nullptr && newest != followed_) follow(*newest, " at " + newest->path());
 }
 
-// Returns whether the followed wand is there still.
+// Returns whether the followed wand is still there.
 bool HidSource::read_candidates() {
   bool kept = true;
   const auto is_lost = [&](const std::unique_ptr<HidCandidate>& candidate) {

@@ -20,7 +20,7 @@ constexpr std::int64_t kTwiceNs = 400'000'000;  // longest time between the pres
 constexpr double kShortestMotionS = 1e-4;
 constexpr double kFirstMotionS = 0.01;
 constexpr double kDeadZone = 0.1;
-constexpr double kSharpness = 2.5;  // exponent of the response
+constexpr double kSharpness = 2.5;  // exponent of rate_response()
 
 }  // namespace
 
@@ -39,7 +39,7 @@ HidWand::HidWand(std::unique_ptr<HidDriver> driver, const HandPlace& place)
 }
 
 bool HidWand::take(Bytes report, std::int64_t now_ns) {
-  if (driver_->steered()) steer(now_ns);  // uses the deflection up to now
+  if (driver_->steered()) steer(now_ns);  // steers with the deflection up to now
   const auto input = driver_->read(report);
   if (!input) return false;
   state_.time_ns = now_ns;

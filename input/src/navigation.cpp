@@ -16,8 +16,8 @@ constexpr double kTurnRadPerS = 1.2;
 constexpr double kDampingS = 0.1;     // time constant of starting and stopping
 constexpr double kScaleMetres = 0.3;  // motion of the hand along the ray for a factor of e
 constexpr double kScaleRad = 0.35;    // tilt of the wand for a factor of e
-constexpr double kScalePerS = 1.0;    // cap at its stop, in powers of e
-constexpr double kHeldForceN = 0.05;  // below the threshold of perception
+constexpr double kScalePerS = 1.0;    // speed at the stop of a cap, in powers of e per second
+constexpr double kHeldForceN = 0.05;  // force below the threshold of perception
 
 bool finite(const WandState& wand) {
   const auto& p = wand.position_m;

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kGravityGainPerS = 0.8;      // rate at which the tilt follows gravity, next to a gyroscope
 constexpr double kGravityAlonePerS = 10.0;    // rate without a gyroscope
-constexpr double kGravityToleranceG = 0.15;   // larger accelerations do not indicate the vertical
+constexpr double kGravityToleranceG = 0.15;   // deviation from 1 g up to which an acceleration indicates the vertical
 constexpr double kRestS = 0.5;                // shortest stillness that counts as rest
-constexpr double kRestRateRadPerS = 0.05;     // peak to peak: above a gyroscope's noise, below a hand's tremor
+constexpr double kRestRateRadPerS = 0.05;     // peak to peak at rest: above a gyroscope's noise, below a hand's tremor
 constexpr double kRestPullG = 0.05;           // peak to peak: above an accelerometer's noise, below a hand's tremor
-constexpr double kLargestBiasRadPerS = 0.35;  // 20 degrees per second: more is a steady turn, not a bias
+constexpr double kLargestBiasRadPerS = 0.35;  // largest bias, 20 degrees per second: more is a steady turn
 
 glm::dquat turned_by(const glm::dvec3& angle) {
   const double length = glm::length(angle);

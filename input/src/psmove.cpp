@@ -17,11 +17,11 @@ constexpr std::uint8_t kMoveCalibrationReport = 0x10;
 constexpr std::size_t kBlockSize = 49;
 constexpr std::size_t kBlockHeader = 2;
 constexpr std::uint8_t kTriggerPressed = 100;
-constexpr double kMoveCountsPerG = 4326.0;  // RPCS3's estimate
+constexpr double kMoveCountsPerG = 4326.0;  // raw counts per g, by RPCS3's estimate
 constexpr double kRadPerSPerRpm = 2.0 * std::numbers::pi / 60.0;
 constexpr double kNominalGyroGain = 80.0 * kRadPerSPerRpm / 8192.0;  // within a factor of 1.5 for any device
 
-// ZCM1 counts from 0x8000, ZCM2 from zero.
+// Number of a report; ZCM1 counts from 0x8000, ZCM2 from zero.
 std::int32_t number(PsMoveModel model, Bytes bytes, std::size_t at) {
   return model == PsMoveModel::Zcm1 ? unsigned16(bytes, at) - 0x8000 : signed16(bytes, at);
 }
@@ -61,7 +61,7 @@ constexpr std::array<AxisPlaces, 3> kZcm1Places{
 constexpr std::array<AxisPlaces, 3> kZcm2Places{
     {{0x02, 0x08, 0x30, 0x42}, {0x10, 0x16, 0x38, 0x4a}, {0x1e, 0x24, 0x40, 0x52}}};
 constexpr double kZcm1Rpm = 80.0;
-constexpr double kZcm2Rpm = 180.0;  // from -90 to +90
+constexpr double kZcm2Rpm = 180.0;  // change of speed from -90 to +90 rpm
 
 class PsMove final : public HidDriver {
  public:

@@ -18,7 +18,7 @@ namespace afm::input {
 namespace {
 
 constexpr double kUnitLengthTolerance = 1e-3;
-constexpr double kFarthestM = 100.0;  // from the room's origin; larger numbers are probably millimetres
+constexpr double kFarthestM = 100.0;  // limit from the room's origin; larger numbers are probably millimetres
 constexpr double kLongestScriptS = 86'400.0;
 
 // Numbers of a line, separated by commas or spaces; empty if it contains anything else.

@@ -6,11 +6,11 @@ namespace afm::input {
 namespace {
 
 constexpr double kAimSeconds = 0.9;
-constexpr double kReadSeconds = 0.5;  // look at the target before pressing
+constexpr double kReadSeconds = 0.5;  // time to look at the target before pressing
 constexpr double kPressSeconds = 0.25;
 constexpr std::int64_t kButtonNs = 250'000'000;
 constexpr double kLiftSeconds = 0.8;
-constexpr double kRestSeconds = 0.7;  // look at the finished curve
+constexpr double kRestSeconds = 0.7;  // time to look at the finished curve
 
 }  // namespace
 
@@ -68,7 +68,7 @@ void SimulatedPerson::update(std::int64_t now_ns, const scene::TipState& tip) {
         move_hand(path_.lift_m, kLiftSeconds);
         enter(Step::Lift, now_ns);
       } else if (path_finished && tip.phase == physics::Phase::Attached) {
-        move_hand(path_.lift_m, stroke_seconds());  // lift first: an attached tip keeps its material
+        move_hand(path_.lift_m, stroke_seconds());  // first a lift: an attached tip keeps its material
       }
       break;
     case Step::Lift:

@@ -10,7 +10,7 @@ namespace afm::input {
 
 namespace {
 
-constexpr double kFullDeflection = 350.0;  // some reach 500
+constexpr double kFullDeflection = 350.0;  // counts at full deflection; some devices reach 500
 
 // Transforms the device's axes (x right, y towards the user, z down) to the room's.
 glm::dvec3 in_room(const std::array<std::int16_t, 3>& raw) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kToldAfter = 3600;  // number of frames between two log lines: about a minute
 constexpr double kSmoothing = 0.05;
-constexpr double kLongestLatencyS = 0.25;  // longer values mean that the window was stopped
+constexpr double kLongestLatencyS = 0.25;  // longest plausible latency; more means that the window was stopped
 
 }  // namespace
 

@@ -22,7 +22,7 @@ using scene::TomlTable;
 
 constexpr std::int64_t kLargestByte = 1023;
 
-// Format of lsusb.
+// Number in the format of lsusb.
 std::uint16_t read_hexadecimal(const TomlTable& table, std::string_view key) {
   const std::string digits = table.text(key);
   std::uint16_t value = 0;
@@ -105,7 +105,7 @@ HidMapping read_device(const TomlTable& root) {
   const auto is_stop = [](const HidMapping::Button& button) { return button.button == WandButton::Stop; };
   const bool stops_alone =
       !mapping.buttons.empty() && std::all_of(mapping.buttons.begin(), mapping.buttons.end(), is_stop);
-  if (mapping.axes.empty() && stops_alone) return mapping;  // a pedal
+  if (mapping.axes.empty() && stops_alone) return mapping;  // complete for a pedal
   if (mapping.axes.empty()) table.refuse("name", "the device needs at least one [[axis]]");
   const bool selects = std::any_of(mapping.buttons.begin(), mapping.buttons.end(),
                                    [](const auto& button) { return button.button == WandButton::Select; });

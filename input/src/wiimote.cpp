@@ -18,7 +18,7 @@ constexpr double kWiimoteCountsPerG = 104.0;
 constexpr double kRadPerColumn = 33.0 / 1024.0 * std::numbers::pi / 180.0;
 constexpr double kMiddleColumn = 511.5;
 constexpr double kGyroRestCount = 8192.0;
-constexpr double kSlowRadPerS = 440.0 / 8192.0 * std::numbers::pi / 180.0;  // per count, in the finer range
+constexpr double kSlowRadPerS = 440.0 / 8192.0 * std::numbers::pi / 180.0;  // rad/s per count, in the finer range
 constexpr double kFastRadPerS = 2000.0 / 8192.0 * std::numbers::pi / 180.0;
 constexpr std::uint16_t kExtensionIdentifier = 0x00FA;
 
@@ -47,7 +47,7 @@ Reports wake_motion_plus() {
           {0x12, 0x04, 0x37}};
 }
 
-// xx xx a4 20 xx 05; a Nunchuk ends with 00 00, a Classic Controller with 01 01 (WiiBrew).
+// True for the identifier xx xx a4 20 xx 05; a Nunchuk's ends with 00 00, a Classic Controller's with 01 01 (WiiBrew).
 bool is_motion_plus(const WiimoteReport::Memory& identifier) {
   const auto& id = identifier.bytes;
   return identifier.size == 6 && id[2] == 0xa4 && id[3] == 0x20 && id[5] == 0x05;
@@ -71,7 +71,7 @@ std::array<std::uint16_t, 3> acceleration_of(Bytes r) {
   return {ten_bits(r[3], (r[1] >> 5) & 3U), ten_bits(r[4], (r[2] >> 4) & 2U), ten_bits(r[5], (r[2] >> 5) & 2U)};
 }
 
-// Two high bits of each coordinate, y above x; all ones means no dot.
+// Dot from two high bits of each coordinate, y above x; all ones means no dot.
 std::optional<WiimoteReport::Dot> dot_of(unsigned x_low, unsigned y_low, unsigned high) {
   const auto x = static_cast<std::uint16_t>(x_low | ((high & 3U) << 8));
   const auto y = static_cast<std::uint16_t>(y_low | ((high & 12U) << 6));
@@ -163,7 +163,7 @@ class Wiimote final : public HidDriver {
     return buttons;
   }
 
-  bool motion_plus_ = false;  // active Motion Plus
+  bool motion_plus_ = false;  // true: a MotionPlus is active
   Reports answers_;
 };
 
@@ -219,7 +219,7 @@ std::optional<MotionPlusReport> parse_motion_plus(Bytes e) {
   const auto rate = [&](std::size_t axis) {
     return static_cast<std::uint16_t>(e[axis] | ((e[axis + 3] & 0xFCU) << 6));
   };
-  // sent in the order yaw, roll, pitch
+  // rates in the order yaw, roll, pitch
   return MotionPlusReport{.rates = {rate(2), rate(1), rate(0)},
                           .slow = {(e[3] & 1U) != 0, (e[4] & 2U) != 0, (e[3] & 2U) != 0}};
 }

@@ -11,7 +11,7 @@
 
 namespace afm::instrument {
 
-// The arrays of one answer: of numbers, null where there is none, or packed as the bytes of 64-bit floats.
+// Encoder of one answer's arrays: as numbers, null where there is none, or packed as the bytes of 64-bit floats.
 class AnswerArrays {
  public:
   explicit AnswerArrays(const Arguments& arguments) : packed_(arguments.packs_arrays()) {}
@@ -30,7 +30,7 @@ class AnswerArrays {
     return json;
   }
 
-  // Of a value of each row.
+  // Array of one value of each row.
   template <class Rows, class Value>
   nlohmann::ordered_json of(const Rows& rows, const Value& value) const {
     std::vector<double> numbers;

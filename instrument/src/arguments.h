@@ -22,11 +22,11 @@ class Arguments {
   }
   std::size_t count_or(const char* name, std::size_t usual, std::size_t smallest, std::size_t largest);
   std::optional<std::string> text(const char* name, std::size_t most_letters);
-  bool flag(const char* name);  // false without it
-  // Null if the request does not have it.
+  bool flag(const char* name);  // value of a flag; false without it
+  // Member of that name; null if the request does not have it.
   const nlohmann::ordered_json* member(const char* name);
 
-  // Forms of an answer's arrays that "arrays" may ask for in any request; the first is that of a request without it.
+  // Forms of an answer's arrays that any request may choose by "arrays"; the first is the default.
   static constexpr std::array<const char*, 2> kArrayForms{"numbers", "base64"};
 
   // True for base64.

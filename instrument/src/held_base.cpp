@@ -11,7 +11,7 @@
 namespace afm::instrument {
 namespace {
 
-constexpr double kFarAboveM = 1e-3;  // beyond every jump off contact
+constexpr double kFarAboveM = 1e-3;  // height beyond every jump off contact
 
 }  // namespace
 

@@ -9,11 +9,11 @@ namespace afm::instrument {
 namespace {
 
 constexpr double kFalseAboveM = 100e-9;                   // highest false engagement above the sample
-constexpr double kStepM = 1e-9, kMostStepsOfAPath = 1e4;  // path of a tip that is dragged
+constexpr double kStepM = 1e-9, kMostStepsOfAPath = 1e4;  // step and largest number of steps of a dragged tip's path
 
 }  // namespace
 
-// The path of the base under the settings as they are; null if no law exists for them.
+// Base held without feedback under the current settings; null if no law exists for them.
 HeldBase* SimulatedInstrument::base() {
   if (!base_) {
     auto made = HeldBase::create(setup_);
@@ -23,14 +23,14 @@ HeldBase* SimulatedInstrument::base() {
   return &*base_;
 }
 
-// The feedback lets go of the base, which stays where it is.
+// Ends the feedback; the base stays where it is.
 void SimulatedInstrument::release() {
   HeldBase* held = at_.engaged && touching_ && !settings_.taps ? base() : nullptr;
   if (held != nullptr) held->press(at_.z_m - surface_below());
   at_.engaged = false;
 }
 
-// Where the tip goes if neither feedback nor drive holds it.
+// Moves the tip as it goes if neither feedback nor drive holds it.
 void SimulatedInstrument::follow_base() {
   HeldBase* held = settings_.taps ? nullptr : base();
   if (held != nullptr) held->step(at_.z_m - surface_below());
@@ -111,7 +111,7 @@ void SimulatedInstrument::move_to(double x_m, double y_m, double speed_m_per_s) 
     at_.y_m = step < steps ? from_y_m + (y_m - from_y_m) * step / steps : y_m;
     if (dragged) follow_base();
   }
-  if (touching_ && at_.engaged) at_.z_m += surface_below() - before_m;  // the feedback follows
+  if (touching_ && at_.engaged) at_.z_m += surface_below() - before_m;  // height followed by the feedback
   show_place();
 }
 

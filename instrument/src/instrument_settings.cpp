@@ -25,10 +25,10 @@ using core::wrong_usage;
 using Json = nlohmann::ordered_json;
 using Settings = InstrumentSettings;
 
-// A number that is neither the contact's nor a scan's.
+// Row of a number that is neither the contact's nor a scan's.
 struct NumberRow {
   std::string_view key;
-  double smallest, largest;  // SI, both allowed
+  double smallest, largest;  // legal range, SI, both ends included
   double (*get)(const Settings& settings);
   void (*set)(Settings& settings, double si);
 };
@@ -104,7 +104,7 @@ core::Result<void> set_tip(const Json& value, Settings& settings) {
   return wrong_usage(fmt::format("\"tip\": there is no tip \"{}\"; choose {}", *name, known));
 }
 
-// The settings that are no numbers; empty if the key is none of them.
+// Sets a setting that is no number; empty if the key is none of them.
 std::optional<core::Result<void>> set_word(std::string_view key, const Json& value, Settings& settings) {
   if (key == "tip") return set_tip(value, settings);
   if (key == "mode") {
@@ -171,7 +171,7 @@ core::Result<void> set_value(const std::string& key, const Json& value, Settings
 
 namespace {
 
-// Numbers of the lever act in a vibrating mode and in a spectrum alone, whatever the law.
+// Checks the numbers of the lever, which act only in a vibrating mode and in a spectrum, whatever the law.
 core::Result<curves::ContactSetup> with_checked_lever(curves::ContactSetup setup) {
   try {
     physics::validate(setup.material.lever);

@@ -29,7 +29,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kProtocol = 1;
-constexpr double kUsualSpeedM = 1e-6;  // m/s
+constexpr double kUsualSpeedM = 1e-6;  // default speed, m/s
 constexpr double kLeastSpeedM = 1e-12, kMostSpeedM = 1.0;
 constexpr double kMostWaitS = 1e7;
 constexpr std::size_t kMostSpectrumPoints = 100'000, kMostSpectrumWork = 10'000'000;
@@ -45,7 +45,7 @@ Json position_json(const SimulatedInstrument& instrument) {
 
 }  // namespace
 
-// One function a verb: takes its arguments and returns the members of the answer.
+// Functions of the verbs: each reads its arguments and returns the members of the answer.
 struct JsonDoor::Verbs {
   struct Row {
     std::string_view name;
@@ -55,7 +55,7 @@ struct JsonDoor::Verbs {
   static const std::array<Row, 16> kRows;
 
   static Json hello(JsonDoor& door, Arguments& arguments, const Json&, const Send&) {
-    constexpr double kMostSeed = 9007199254740992.0;  // largest whole number that every JSON library keeps
+    constexpr double kMostSeed = 9007199254740992.0;  // largest integer that every JSON library preserves
     const auto seed = arguments.number("seed", 0.0, kMostSeed);
     if (seed && *seed != std::floor(*seed)) throw RefusedRequest("\"seed\": give a whole number");
     arguments.finish();
@@ -153,7 +153,7 @@ struct JsonDoor::Verbs {
     return answer;
   }
 
-  // The next request, if all of it has come meanwhile, is to stop.
+  // True if the next request has arrived completely and is "stop".
   static bool is_stopped(const JsonDoor& door) {
     constexpr std::size_t kLongestStop = 200;
     const std::string_view next = door.sent_meanwhile();
@@ -187,7 +187,7 @@ struct JsonDoor::Verbs {
     return answer;
   }
 
-  // A stopped scan or tapping curve has said so in its own answer.
+  // Answers "stop"; a stopped scan or tapping curve has reported that in its own answer.
   static Json stop(JsonDoor&, Arguments& arguments, const Json&, const Send&) {
     arguments.finish();
     return Json::object();
@@ -326,7 +326,7 @@ Door::Then JsonDoor::answer(std::string_view request, const Send& send) {
     const Verbs::Row* verb = Verbs::find(name);
     if (verb == nullptr)
       throw RefusedRequest(fmt::format("there is no verb \"{}\"; \"hello\" lists them", core::printable(name)));
-    static_cast<void>(arguments.packs_arrays());  // an unknown form, refused whatever the verb
+    static_cast<void>(arguments.packs_arrays());  // check that refuses an unknown form, whatever the verb
     if (verb->run == &Verbs::quit) then = Then::Quit;
     Json members = verb->run(*this, arguments, id, send);
     Json answer{{"id", id}, {"ok", true}, {"time_s", instrument_.position().time_s}};

@@ -23,8 +23,8 @@ bool is_plain(const std::string& name) {
   });
 }
 
-// As a microscope would keep it: with what its detector shows, and without the numbers that it cannot know. Made only
-// to be saved.
+// Curve as a microscope would save it: with the forces that its detector shows, without numbers that it cannot know.
+// Used only for saving.
 curves::RecordedCurve recorded(const curves::CurveRun& run, const std::vector<double>& shown_n) {
   curves::RecordedCurve kept = curves::recorded_curve(run);
   kept.metadata.parameters.clear();

@@ -14,7 +14,7 @@ namespace afm::instrument {
 // The newest curve and image of an instrument, which a client may save.
 class KeptResults {
  public:
-  // `folder` is where save() writes; empty: nowhere.
+  // `folder` is the folder into which save() writes; empty: none.
   explicit KeptResults(std::string folder) : folder_(std::move(folder)) {}
 
   // `shown_n`: force of each sample as the detector shows it.

@@ -46,7 +46,7 @@ core::Result<sockaddr_un> address_of(const std::string& path) {
   return address;
 }
 
-// A socket that a program left behind when it was killed.
+// True for a socket left behind by a killed program.
 bool is_abandoned(const std::string& path, const sockaddr_un& address) {
   struct stat facts{};
   if (::lstat(path.c_str(), &facts) != 0 || !S_ISSOCK(facts.st_mode) || facts.st_uid != ::getuid()) return false;
@@ -55,12 +55,12 @@ bool is_abandoned(const std::string& path, const sockaddr_un& address) {
          errno == ECONNREFUSED;
 }
 
-// As /proc/net/tcp writes it: "0100007F:1965".
+// Address in the form of /proc/net/tcp: "0100007F:1965".
 std::string entry_of(const sockaddr_in& address) {
   return fmt::format("{:08X}:{:04X}", address.sin_addr.s_addr, ntohs(address.sin_port));
 }
 
-// The user whose process holds the other end of a connection within this machine; empty if the system does not say.
+// User of the process at the other end of a connection within this machine; empty if the system does not say.
 std::optional<uid_t> user_of_peer(int socket) {
   sockaddr_in here{}, there{};
   socklen_t here_size = sizeof(here), there_size = sizeof(there);
@@ -109,7 +109,7 @@ core::Result<Listener> Listener::on_socket(const std::string& path) {
   if (!address) return tl::unexpected(address.error());
   core::FileDescriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (is_abandoned(path, *address)) ::unlink(path.c_str());
-  const mode_t mask = ::umask(0177);  // 0600 from the first moment on
+  const mode_t mask = ::umask(0177);  // mode 0600 from the beginning
   const bool bound = socket.is_open() && ::bind(socket.get(), as_address(*address), sizeof(*address)) == 0;
   const int error = errno;
   ::umask(mask);
@@ -125,7 +125,7 @@ core::Result<Listener> Listener::on_socket(const std::string& path) {
 
 core::Result<Listener> Listener::on_loopback(std::uint16_t port) {
   core::FileDescriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  const int again = 1;  // a port is free as soon as its last server has left
+  const int again = 1;  // lets a port be used again as soon as its last server has ended
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);

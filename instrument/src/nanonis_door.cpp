@@ -24,17 +24,16 @@ namespace {
 constexpr std::size_t kNameBytes = 32, kHeaderBytes = 40;
 constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 constexpr double kWithdrawnM = 1e-6;
-constexpr double kMotorStepM = 100e-9;  // step of the coarse motor, along z
+constexpr double kMotorStepM = 100e-9;  // step of the coarse motor along z
 
 }  // namespace
 
-// One function of the protocol each: reads its arguments, acts, and writes its results before the error.
+// Functions of the protocol: each reads its arguments, acts, and writes its results before the error.
 struct NanonisDoor::Functions {
   using Run = void (*)(NanonisDoor& door, NanonisReader& in, NanonisWriter& out);
   struct Row {
     std::string_view name;
-    std::size_t
-        blank;  // bytes of zeros in place of the results of a call that failed: clients look for the error behind them
+    std::size_t blank;  // zeros in place of the results of a failed call, because clients look for the error after them
     Run run;
   };
   static const std::array<Row, 38> kRows;
@@ -73,7 +72,7 @@ struct NanonisDoor::Functions {
   }
   static void val_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
     const auto index = in.read<std::int32_t>();
-    in.read<std::uint32_t>();  // request to wait for the newest value, which is this one
+    in.read<std::uint32_t>();  // flag of waiting for the newest value, which is this one
     out.add(signal(door, index));
   }
   static void vals_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
@@ -95,7 +94,7 @@ struct NanonisDoor::Functions {
     door.bias_v_ = static_cast<float>(within("bias", in.real(), -10.0, 10.0));
   }
   static void bias_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) { out.add(door.bias_v_); }
-  // A status that is always zero, and the current, which there is none of.
+  // Writes a status that is always zero, and a current, which the instrument does not have.
   template <class T>
   static void zero(NanonisDoor&, NanonisReader&, NanonisWriter& out) {
     out.add(T{0});
@@ -129,7 +128,7 @@ struct NanonisDoor::Functions {
     const double force_n = in.real();
     change(door, [force_n](InstrumentSettings& settings) { settings.scan.setpoint = physics::Force(force_n); });
   }
-  // Nanonis' integral gain is the proportional one over a time constant; ours is in 1/s and without it
+  // Nanonis' integral gain is the proportional one over a time constant; ours is in 1/s without it
   static void gain_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     const physics::ScanSettings& scan = door.instrument_.settings().scan;
     const double integral = scan.integral_gain.si, proportional = scan.proportional_gain;
@@ -163,14 +162,14 @@ struct NanonisDoor::Functions {
     return door.custom_speed_ != 0 ? door.follow_speed_m_per_s_ : scan_speed;
   }
   static void scan_action(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
-    constexpr std::uint16_t kStart = 0, kGoToCentre = 6;  // from 4 on since the protocol of June 2024
+    constexpr std::uint16_t kStart = 0, kGoToCentre = 6;  // actions; from 4 on since the protocol of June 2024
     const auto action = in.read<std::uint16_t>();
     const bool upwards = in.read<std::uint32_t>() != 0;
     if (action > kGoToCentre) throw RefusedRequest(fmt::format("there is no scan action {}", action));
     if (action == kGoToCentre || (action == kStart && door.instrument_.position().engaged)) {
       door.instrument_.move_to(door.frame_x_m_, door.frame_y_m_, move_speed(door));
     }
-    if (action != kStart) return;  // whatever was started is done
+    if (action != kStart) return;  // no effect on a completed scan
     change(door, [upwards](InstrumentSettings& settings) { settings.upwards = upwards; });
     door.upwards_ = upwards;
     door.image_ = std::make_unique<const physics::ScanImage>(
@@ -178,13 +177,13 @@ struct NanonisDoor::Functions {
   }
   static void scan_wait(NanonisDoor&, NanonisReader& in, NanonisWriter& out) {
     in.read<std::int32_t>();
-    out.add(std::uint32_t{0}).add_text("");  // no time-out, and no file
+    out.add(std::uint32_t{0}).add_text("");  // no time-out, no file
   }
   static void frame_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     const auto [width_m, height_m] = door.instrument_.frame();
     out.add(static_cast<float>(door.frame_x_m_)).add(static_cast<float>(door.frame_y_m_));
     out.add(static_cast<float>(width_m)).add(static_cast<float>(height_m));
-    out.add(static_cast<float>(0.0 - door.instrument_.settings().turn_rad / kRadPerDegree));  // clockwise
+    out.add(static_cast<float>(0.0 - door.instrument_.settings().turn_rad / kRadPerDegree));  // clockwise angle
   }
   static void frame_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double x_m = within("x", in.real(), -kMostPlaceM, kMostPlaceM),
@@ -350,7 +349,7 @@ constexpr std::array<NanonisDoor::Functions::Row, 38> NanonisDoor::Functions::kR
 NanonisDoor::NanonisDoor(SimulatedInstrument& instrument) : instrument_(instrument) {}
 NanonisDoor::~NanonisDoor() = default;
 
-// Such as a client of another protocol.
+// True for input of a client with another protocol.
 bool NanonisDoor::announces_too_much(std::string_view bytes) const {
   return bytes.size() >= kHeaderBytes &&
          kHeaderBytes + NanonisReader(bytes.substr(kNameBytes)).read<std::uint32_t>() > most_request_bytes();

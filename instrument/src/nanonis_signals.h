@@ -19,7 +19,7 @@ namespace afm::instrument {
 struct Signal {
   std::int32_t index;
   std::string_view name;
-  std::string_view channel;  // channel of the image; empty: none
+  std::string_view channel;  // channel of the image with this signal; empty: none
 };
 inline constexpr std::int32_t kSignals = 128;
 inline constexpr std::array kNamed{Signal{0, "Current (A)", ""},

@@ -14,14 +14,14 @@ struct RefusedRequest : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The value; RefusedRequest with the error's words.
+// The value of a result; throws RefusedRequest with the error's message.
 template <class T>
 T value_of(core::Result<T> result) {
   if (!result) throw RefusedRequest(result.error().message);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-// Limit of places and heights that a client names, either way.
+// Limit of positions and heights that a client can name, in either direction.
 inline constexpr double kMostPlaceM = 1e-3;
 
 }  // namespace afm::instrument

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kDeepestRequest = 8;
 
-// No JSON library is asked to build what is nested without end.
+// True for text nested so deeply that no JSON library should build it.
 bool is_too_deep(std::string_view text) {
   int depth = 0;
   bool quoted = false;
@@ -52,7 +52,7 @@ class MemberNames {
   std::array<std::set<std::string>, kDeepestRequest + 1> names_;
 };
 
-// "number overflow parsing '1e400'" for "[json.exception.out_of_range.406] number overflow parsing '1e400'".
+// The part "number overflow parsing '1e400'" of "[json.exception.out_of_range.406] number overflow parsing '1e400'".
 std::string reason_of(const Json::exception& error) {
   constexpr std::size_t kMostLetters = 200;
   const std::string_view text = error.what();
@@ -80,7 +80,7 @@ Json parsed_request(std::string_view line) {
 }
 
 Json id_of(const Json& request) {
-  constexpr double kLargestExact = 9007199254740992.0;  // beyond it a float loses digits
+  constexpr double kLargestExact = 9007199254740992.0;  // limit above which a double loses digits of integers
   const auto found = request.find("id");
   if (found == request.end() || found->is_null()) return nullptr;
   if (!found->is_number() && !found->is_string()) throw RefusedRequest("\"id\": give a number or a text");

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kBytesAtOnce = 65536;
 
-// Waits as poll() does, through signals.
+// Waits like poll(), but continues after signals.
 int wait_for(std::span<pollfd> watched, int milliseconds) {
   int ready = 0;
   do {
@@ -93,7 +93,7 @@ class Client {
 
   core::FileDescriptor socket_;
   std::string buffer_;
-  bool ended_ = false;  // nothing more will come
+  bool ended_ = false;  // true: no more input can arrive
   bool gone_ = false;
 };
 

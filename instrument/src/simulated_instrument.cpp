@@ -23,9 +23,8 @@ namespace {
 
 using core::wrong_usage;
 
-constexpr double kStartAboveM = 1e-6;  // height of the tip at the start
-constexpr double kGrowthThatIsSeen =
-    0.02;  // relative growth of the tip from which the image's surface is computed anew
+constexpr double kStartAboveM = 1e-6;       // height of the tip above the sample at the start
+constexpr double kGrowthThatIsSeen = 0.02;  // relative growth of the tip from which the image's surface is recomputed
 
 // Strongest push of a pass; in tapping mode at the lowest points of the swing.
 double push_of(const physics::ScanTrack& pass, bool taps) {
@@ -79,7 +78,7 @@ core::Result<void> SimulatedInstrument::reset(std::uint64_t seed) {
   InstrumentSettings settings;
   settings.contact.assets_dir = assets_dir_;
   settings.contact.material = "mica";
-  if (growth_m_ > 0.0) surface_radius_m_ = 0.0;  // its surface is that of a worn tip
+  if (growth_m_ > 0.0) surface_radius_m_ = 0.0;  // drops the surface of the worn tip
   at_ = {.z_m = kStartAboveM};
   touching_ = second_apex_ = false;
   if (const auto built = build(settings, 0.0); !built) return built;
@@ -101,7 +100,7 @@ core::Result<void> SimulatedInstrument::change(const InstrumentSettings& setting
   return build(settings, growth_m_);
 }
 
-// Everything that follows from settings and the worn tip; on failure nothing has changed.
+// Builds everything that follows from settings and the worn tip; on failure nothing has changed.
 core::Result<void> SimulatedInstrument::build(const InstrumentSettings& settings, double growth_m) {
   const bool same_contact = surface_ != nullptr && settings.contact.material == settings_.contact.material &&
                             settings.contact.model == settings_.contact.model &&
@@ -157,7 +156,7 @@ double SimulatedInstrument::surface_below() const {
   return settings_.flat ? 0.0 : surface_->height_m(at_.x_m - drift_x_m_, at_.y_m - drift_y_m_);
 }
 
-// From 0 to below 1, the same on every machine.
+// Random number from 0 to below 1, the same on every machine.
 double SimulatedInstrument::uniform() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
 
 void SimulatedInstrument::pass(double time_s) noexcept {
@@ -320,7 +319,7 @@ core::Result<physics::ScanImage> SimulatedInstrument::take_image(const TakeLine&
         state_flips_ += flips_of(line, **swing);
         for (auto* pass : {&shown.trace, &shown.retrace}) std::fill(pass->error_n.begin(), pass->error_n.end(), 0.0);
       }
-      if (showcase_ != nullptr) showcase_->put_line(shown);  // an error of the amplitude is no force
+      if (showcase_ != nullptr) showcase_->put_line(shown);  // not in tapping mode, where the error is an amplitude
       const auto worn = after_line(line, scanner);
       if (!worn) error = worn.error();
       return !error && taken(line, at_.time_s + scanner.time().si);

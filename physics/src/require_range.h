@@ -21,7 +21,7 @@ inline void require_range(const std::string& field, double value, double smalles
       field, words + " " + format_si(value, units.units) + " is not within " + range_text(smallest, largest, units));
 }
 
-// The same for an angle in radians; the message has it in degrees, as people write it.
+// As require_range() for an angle in radians; the message has it in degrees, as people write it.
 inline void require_angle(const std::string& field, double angle_rad, double smallest_rad, double largest_rad) {
   if (angle_rad >= smallest_rad && angle_rad <= largest_rad) return;
   static constexpr std::array kDegrees{Unit{"deg", 180.0 / std::numbers::pi, true}};

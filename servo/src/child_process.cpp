@@ -91,7 +91,7 @@ bool child_ended_within(pid_t child, int milliseconds, int& status) noexcept {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) return true;
     if (ended < 0 && errno == ECHILD) {
-      status = W_EXITCODE(1, 0);  // already reaped elsewhere
+      status = W_EXITCODE(1, 0);  // assumed failure of a child that was reaped elsewhere
       return true;
     }
     if (waited >= milliseconds) return false;

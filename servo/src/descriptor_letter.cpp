@@ -45,7 +45,7 @@ std::optional<std::string_view> Letter::read(int socket, std::span<core::FileDes
   }
   const bool fits = count == 0 || count == descriptors.size();
   for (std::size_t i = 0; i < count; ++i) {
-    core::FileDescriptor received(numbers[i]);  // closed here if there is no room for it
+    core::FileDescriptor received(numbers[i]);  // owner that closes the descriptor if there is no room for it
     if (fits) descriptors[i] = std::move(received);
   }
   if (!fits) {

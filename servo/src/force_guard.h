@@ -15,19 +15,19 @@
 // Two guards watch a servo: its watchdog, a process, and a thread of its renderer with longer times.
 namespace afm::servo {
 
-// Letters from the servo to a guard, and the beat of the watchdog in return.
+// Letters from the servo to a guard, and the beat that the watchdog returns.
 namespace guard_letter {
-inline constexpr char kPath = 'P';  // followed by the bytes of zero force, with the device's descriptor
+inline constexpr char kPath = 'P';  // prefix of the bytes of zero force, sent with the device's descriptor
 inline constexpr std::string_view kEnd = "E";
 inline constexpr std::string_view kBeat = "B";
 }  // namespace guard_letter
 
-// Counted in a guard's own wake-ups, so that a pause of the whole machine does not count. All in ms.
+// Times counted in a guard's own wake-ups, so that a pause of the whole machine does not count. All in ms.
 struct GuardTimes {
   int wake;
-  int release;  // since the servo's last tick: zero force is sent; the servo may continue afterwards
-  int kill;     // since its last tick: SIGKILL, so that the kernel closes the device
-  int close;    // time since the announcement of its end: also SIGKILL
+  int release;  // time since the servo's last tick: zero force is sent; the servo may continue afterwards
+  int kill;     // time since the servo's last tick: SIGKILL, so that the kernel closes the device
+  int close;    // time since the announcement of the servo's end: SIGKILL
 };
 
 class ForceGuard {
@@ -62,8 +62,8 @@ class ForceGuard {
   Letter letter_;
   std::uint64_t tick_ = 0;
   int silent_wakes_ = 0;
-  bool ticking_ = false;  // since the first tick
-  bool ending_ = false;   // since kEnd
+  bool ticking_ = false;  // true: the first tick has been seen
+  bool ending_ = false;   // true: kEnd was received
 };
 
 }  // namespace afm::servo

@@ -17,7 +17,7 @@ constexpr double kLargestDPrime = 12.0;
 struct ZRate {
   double value = kNoValue;
   double z = kNoValue;
-  double variance = kNoValue;  // variance of z
+  double variance = kNoValue;  // variance of the z value
 };
 
 ZRate z_rate_of(std::size_t count, std::size_t trials, RateCorrection correction) {

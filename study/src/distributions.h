@@ -7,7 +7,7 @@ namespace afm::study {
 
 double normal_density(double z);
 double normal_cdf(double z);
-// -infinity at 0, infinity at 1
+// quantile of the normal distribution, -infinity at 0, infinity at 1
 double normal_quantile(double probability);
 
 // P(T <= t) and its inverse, Student's t; degrees of freedom above 0, not necessarily integer.

@@ -49,7 +49,7 @@ class Pairings {
       return;
     }
     if (column + 1 == kAnswers) {
-      put(row, column, a_[row], row + 1, 0);  // the rest of the row
+      put(row, column, a_[row], row + 1, 0);  // remaining people of the row
       return;
     }
     for (int people = std::min(a_[row], b_[column]); people >= 0; --people) {

@@ -16,7 +16,7 @@ double p_of_at_least(std::size_t right, std::size_t trials, double chance) {
 }
 
 std::optional<SmallestCount> smallest_count_above_chance(std::size_t trials, double chance, double alpha) {
-  std::size_t low = 0, high = trials + 1;  // too probable; improbable enough, or impossible
+  std::size_t low = 0, high = trials + 1;  // bounds: too probable, and improbable enough or impossible
   while (high - low > 1) {
     const std::size_t middle = low + (high - low) / 2;
     (p_of_at_least(middle, trials, chance) <= alpha ? high : low) = middle;

@@ -73,7 +73,7 @@ std::string text_in(const nlohmann::json& table, const char* key) {
   constexpr std::size_t kLongest = 200;
   auto found = table.find(key);
   if (found == table.end()) return {};
-  if (const auto& texts = *found; texts.is_object()) {  // title with a text in each language
+  if (const auto& texts = *found; texts.is_object()) {  // titles by language
     found = texts.find("en");
     if (found == texts.end()) return {};
   }
@@ -114,7 +114,7 @@ core::Result<LessonVisit> read_visit(const std::string& folder, const std::strin
   auto facts = parse_lesson_facts(*text, folder + "/" + description);
   if (!facts) return tl::unexpected(facts.error());
   visit.facts = std::move(*facts);
-  // of the id, the names of files have letters and digits alone; those of 0.2.0 have its dashes, too
+  // ids are compared by letters and digits, as in the names of files; those of 0.2.0 also have dashes
   if (is_word(visit.facts.id) && without_dashes(visit.facts.id) == without_dashes(visit.task)) {
     visit.task = visit.facts.id;
   }

@@ -13,7 +13,7 @@ namespace afm::study {
 
 namespace {
 
-// In the order of a line's fields.
+// Columns in the order of a line's fields.
 enum EventsColumn {
   Onset,
   Duration,
@@ -39,7 +39,7 @@ constexpr std::array<std::string_view, 19> kEventsColumns{
     "onset",  "duration", "step",     "trial_type",    "condition", "practice", "trial",
     "level",  "stimulus", "response", "correct",       "rt",        "force",    "strokes",
     "losses", "undos",    "work",     "largest_force", "aids"};
-constexpr std::size_t kNewerColumns = 7;  // columns of the force and of a push
+constexpr std::size_t kNewerColumns = 7;  // number of newer columns, for the force and a push
 constexpr double kLongestLesson_s = 1e7;
 constexpr double kHighestLevel = 1e3;
 constexpr double kMostTrialsOfAStep = 1e6;
@@ -47,7 +47,7 @@ constexpr double kFarthestPush_m = 1e-3, kMostPushes = 1e6, kMostPushWork_aj = 1
 constexpr std::array<std::string_view, 6> kPushEnds{"moved", "target", "pattern", "lost", "line", "threshold"};
 constexpr double kMostOverThreshold = 1e3;
 
-// The items of a questionnaire are named "sus-1" and so on.
+// Range of a questionnaire's items, named "sus-1" and so on.
 struct ItemRange {
   std::string_view prefix;
   int items;
@@ -189,7 +189,7 @@ class EventsLine {
     task(trial, trial.stimulus == "threshold" ? kMostOverThreshold : kFarthestPush_m);
   }
 
-  // Columns of a push, and of lines that were written.
+  // Reads the columns of a push, or of lines that were written.
   void task(StudyTrial& trial, double most = kFarthestPush_m) {
     trial.value = optional(Response, 0, most);
     trial.strokes = count(Strokes);

@@ -29,7 +29,7 @@ IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPers
 ThresholdResult threshold_result(const StepAndCondition& where, const TrialsByPerson& trials);
 std::vector<LearningResult> learning_results(const TrialGroups& identify);
 
-// The newest answers of each person to a questionnaire's items, by condition or another word.
+// Newest answers of each person to a questionnaire's items, by condition or another word.
 template <std::size_t items>
 using Answers = std::map<std::string, std::map<std::string, std::array<std::optional<double>, items>>>;
 

@@ -12,7 +12,7 @@ namespace afm::study {
 // Name of a condition in reports.
 std::string condition_text(const std::string& condition);
 
-// The section of a lesson.
+// Section of the report on a lesson.
 std::vector<PageBlock> lesson_blocks(const LessonResults& lesson);
 
 // Figures with 95 % intervals.

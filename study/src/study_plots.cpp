@@ -36,7 +36,7 @@ void add_level(SvgPlot& plot, const std::string& label, double from, double to, 
   plot.lines.push_back({label, "#3c434b", curves::LineStyle::Dashed, {{from, y}, {to, y}}});
 }
 
-// Levels in bins of a fifth of a decade, each with its share of right answers.
+// Bin of a fifth of a decade of levels, with its share of right answers.
 struct LevelBin {
   double level;
   Estimate right;

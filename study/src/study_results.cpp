@@ -20,7 +20,7 @@ namespace {
 
 // Common and differing properties of a lesson's visits.
 struct LessonVisits {
-  std::vector<std::pair<std::string, const LessonVisit*>> visits;  // with the person
+  std::vector<std::pair<std::string, const LessonVisit*>> visits;  // id and visit of each person
 };
 
 struct FactRow {
@@ -120,7 +120,7 @@ struct TaskRow {
   NumberOf number;
 };
 
-// Numbers of a task: a push, or lines that were written.
+// Adds the numbers of a task: a push, or lines that were written.
 void add_task(const TrialGroups& steps, std::span<const TaskRow> rows, LessonResults& results) {
   const TrialGroups groups = before_and_after(steps);
   for (const TaskRow& row : rows) {
@@ -191,7 +191,7 @@ bool has_answer(const StudyTrial& trial) {
   return true;
 }
 
-// The tests of one list of a report.
+// Tests of one list of a report.
 template <class Row>
 void correct_side_by_side(std::vector<Row>& rows, TestResult Row::* test) {
   std::vector<TestResult*> tests;

@@ -38,7 +38,7 @@ Answers<items> gathered(const std::map<std::string, std::vector<const StudyTrial
 
 std::string condition_of(const StudyTrial& trial) { return trial.condition; }
 
-// "before", "after", or empty
+// Word for the time of a trial: "before", "after", or empty.
 std::string time_of(const StudyTrial& trial) {
   for (const char* time : {"before", "after"}) {
     if (trial.step.ends_with(std::string("-") + time)) return time;

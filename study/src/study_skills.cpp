@@ -113,7 +113,7 @@ IdentifyResult identify_result(const StepAndCondition& where, const TrialsByPers
 ThresholdResult threshold_result(const StepAndCondition& where, const TrialsByPerson& trials) {
   ThresholdResult result{
       .step = where.step, .condition = where.condition, .people = {}, .weber_fraction = {}, .levels = {}};
-  std::map<double, std::pair<std::size_t, std::size_t>> by_level;  // right, all
+  std::map<double, std::pair<std::size_t, std::size_t>> by_level;  // numbers of right answers and of answers
   std::vector<double> logarithms;
   for (const auto& [id, list] : trials) {
     std::vector<ThresholdTrial> converted;

@@ -91,7 +91,7 @@ core::Result<TsvTable> parse_tsv(std::string_view bytes, const std::string& name
       width = fields.size();
       continue;
     }
-    if (fields.size() == 1 && fields.front().find_first_not_of(" \r") == kNowhere) continue;  // an editor's
+    if (fields.size() == 1 && fields.front().find_first_not_of(" \r") == kNowhere) continue;  // empty line of an editor
     if (fields.size() != width) {
       return bad_line(name, number,
                       fmt::format("{} field{} instead of {}", fields.size(), fields.size() == 1 ? "" : "s", width));

@@ -16,12 +16,12 @@ namespace afm::study {
 
 namespace {
 
-constexpr double kThresholdZ = 0.6744897501960817;  // z(0.75)
+constexpr double kThresholdZ = 0.6744897501960817;  // z(0.75), the normal quantile
 constexpr std::size_t kFewestTrials = 5;
-constexpr double kBeyondLevels = 8.0;  // a factor
+constexpr double kBeyondLevels = 8.0;  // factor by which the prior exceeds the levels on both sides
 constexpr double kUsualExponent = 1.4, kExponentSpread = 0.6;
 constexpr double kBiasSpread = std::numbers::sqrt2;
-constexpr double kLongestSignal = 40.0;  // beyond any normal distribution
+constexpr double kLongestSignal = 40.0;  // bound beyond any normal distribution
 
 double second_probability(double signal, double bias) {
   return 0.5 * kLapseRate + (1.0 - kLapseRate) * normal_cdf(signal - bias / std::numbers::sqrt2);

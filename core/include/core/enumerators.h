@@ -43,11 +43,11 @@ consteval auto find_enumerators() {
   return found;
 }
 
-// Sorted by value.
+// Enumerators of an enum, sorted by value.
 template <class Enum>
 inline constexpr auto kEnumerators = find_enumerators<Enum>();
 
-// False for an outside value without an enumerator.
+// False for a value without an enumerator, as it may come from outside.
 template <class Enum>
 constexpr bool is_enumerator(Enum value) {
   return std::find(kEnumerators<Enum>.begin(), kEnumerators<Enum>.end(), value) != kEnumerators<Enum>.end();

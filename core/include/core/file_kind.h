@@ -24,15 +24,15 @@ enum class FileRole : std::uint8_t {
 };
 
 struct FileKind {
-  std::string_view name;  // words behind "it is", such as "a gzip file"
+  std::string_view name;  // words after "it is", such as "a gzip file"
   FileRole role;
 };
 
 // Bytes of a file's beginning that file_kind() looks at.
 inline constexpr std::size_t kFileKindBytes = 4096;
 
-// By the signatures in each format's specification; a binary STL has none and is recognised by its size in bytes. Empty
-// for any other file.
+// Kind of a file by the signatures in each format's specification; a binary STL has none and is recognised by its size.
+// Empty for any other file.
 std::optional<FileKind> file_kind(std::string_view beginning, std::uint64_t file_size);
 
 // Advice for a file of a role, whatever was to be read from it: "unpack it first". Empty where that depends on the

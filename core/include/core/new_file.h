@@ -8,8 +8,8 @@
 
 namespace afm::core {
 
-// As write_file() (core/whole_file.h), but no regular file is replaced, also none that another program has made
-// meanwhile: WrongUsage.
+// Writes like write_file() (core/whole_file.h), but replaces no regular file, including one that another program has
+// created meanwhile: WrongUsage.
 Result<void> write_new_file(const std::string& path, std::string_view bytes);
 
 }  // namespace afm::core

@@ -31,8 +31,8 @@ class OutputFolder {
   // Moves every staged file into the folder. Replaces older files of the same names and keeps all others.
   Result<void> commit();
 
-  // The same where no file is replaced: WrongUsage if one of the names exists. A failure moves back what was moved, so
-  // that all files appear or none. The longest name appears first, so that FILE is never there without FILE.truth.json.
+  // Commits without replacing any file: WrongUsage if a name exists. A failure moves back what was moved, so that all
+  // files appear or none. The longest name appears first, so that FILE is never there without FILE.truth.json.
   Result<void> commit_new();
 
  private:

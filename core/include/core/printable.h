@@ -10,7 +10,7 @@ namespace afm::core {
 // control character except newline and tab become U+FFFD.
 std::string printable(std::string_view text);
 
-// Same for text that must be one line: newlines and tabs become spaces.
+// As printable(), for text that must be one line: newlines and tabs become spaces.
 std::string printable_line(std::string_view text);
 
 }  // namespace afm::core

@@ -13,8 +13,8 @@ enum class SystemPart { VulkanLoader, VulkanDriver, WindowLibraries, Sdl2, OpenX
 
 // A family of Linux distributions, by its package manager.
 struct PackageSystem {
-  std::string_view name;     // "apt"
-  std::string_view install;  // command before the names of packages
+  std::string_view name;     // name of the package manager, "apt"
+  std::string_view install;  // command that precedes the names of packages
 };
 
 // Text of /etc/os-release, or else of /usr/lib/os-release; empty if there is neither.
@@ -28,7 +28,7 @@ const PackageSystem* package_system_of(std::string_view os_release);
 // packages.
 std::string install_command(const PackageSystem* system, std::span<const SystemPart> parts);
 
-// Name with its use: "SDL2 (gamepads, sound)".
+// Name of a part with its use: "SDL2 (gamepads, sound)".
 std::string_view description_of(SystemPart part);
 
 // Parts with libraries of which at least one cannot be opened here.

@@ -23,7 +23,7 @@ core::Result<void> write_file(const std::string& path, std::string_view bytes);
 // Checks before long work that write_file() would find a folder and write permission. Changes nothing.
 Result<void> check_writable(const std::string& path);
 
-// "a folder", "a pipe", "a socket" or "a device"; empty for a regular file or a missing one.
+// Kind of a path that is no regular file: "a folder", "a pipe", "a socket" or "a device"; otherwise empty.
 std::string kind_of_no_file(const std::string& path);
 
 }  // namespace afm::core

@@ -11,14 +11,14 @@ namespace afm::core {
 // The program and its version. Every report, table and file names them through this header, so that it can be cited.
 inline std::string written_by() { return std::string("TouchAFM ") + kVersion; }
 
-// Adds them to a report in JSON, an object.
+// Adds the program and its version to a report in JSON, an object.
 template <class Json>
 void name_software(Json& report) {
   report["software"] = "TouchAFM";
   report["software_version"] = kVersion;
 }
 
-// Adds them to a report in words, as its last line.
+// Adds the program and its version to a report in words, as its last line.
 inline std::string with_software_line(std::string report) {
   return std::move(report) + "computed by " + written_by() + "\n";
 }

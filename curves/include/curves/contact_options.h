@@ -14,16 +14,16 @@ namespace afm::curves {
 
 // A contact as a user describes it; empty text: not given.
 struct ContactOptions {
-  std::string assets_dir;                   // holds materials.toml and probes.toml
-  std::vector<std::string> material_files;  // user's files, added to the built-in ones
-  std::vector<std::string> probe_files;     // user's files, added to the built-in ones
+  std::string assets_dir;                   // folder with materials.toml and probes.toml
+  std::vector<std::string> material_files;  // files of the user, added to the built-in ones
+  std::vector<std::string> probe_files;     // files of the user, added to the built-in ones
   std::string material;                     // empty: all numbers that the model needs must be given
-  std::string probe;                        // empty: the material's lever and tip
+  std::string probe;                        // name of the probe; empty: the material's lever and tip
   std::string model = "auto";
-  std::map<std::string, std::string, std::less<>> values;  // as typed; keyed by the option's name without dashes
-  std::map<std::string, double, std::less<>> si_values;    // the same in SI, from a program; a key is in one of the two
+  std::map<std::string, std::string, std::less<>> values;  // values as typed, by the option's name without dashes
+  std::map<std::string, double, std::less<>> si_values;    // values in SI from a program; each key is in one of the two
   bool exact_sphere = false;
-  bool driven = false;  // lever with a drive (ModelName)
+  bool driven = false;  // true: a drive swings the lever (ModelName)
 };
 
 // Loads the built-in and the user's materials. A user's material replaces a built-in one of the same name.

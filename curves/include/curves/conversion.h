@@ -12,22 +12,22 @@
 namespace afm::curves {
 
 struct ConversionOptions {
-  CurveReading reading;              // `index` is not used
-  std::optional<std::size_t> index;  // the curve of a file with several; empty: all of them
-  std::string channel;               // channel for a .gsf; empty: the height
+  CurveReading reading;              // settings of the reading, whose `index` is not used
+  std::optional<std::size_t> index;  // index of a curve in a file with several; empty: all of them
+  std::string channel;               // channel to convert to a .gsf; empty: the height
 };
 
 struct Converted {
   std::string bytes;                 // contents of the new file
-  std::string contents;              // "1 curve of 4000 points"
-  std::vector<std::string> remarks;  // losses, turns and rounding, one sentence each
+  std::string contents;              // description of the contents, "1 curve of 4000 points"
+  std::vector<std::string> remarks;  // remarks on losses, turns and rounding, one sentence each
 };
 
 // All endings of a converted file, for help and error messages.
 inline constexpr const char* kConvertedFiles =
     "curves: .tab, .h5 or, for AFM Workshop and Gwyddion, .csv; images: .gwy or .gsf";
 
-// Most points of all curves together: they are converted in memory.
+// Largest number of points of all curves together: they are converted in memory.
 inline constexpr std::size_t kMostConvertedPoints = 8'000'000;
 
 // Converts a file of curves or an image into the format whose ending `name` has, with all metadata that both support.

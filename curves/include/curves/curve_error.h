@@ -16,7 +16,7 @@ class CurveError : public std::runtime_error {
 // Advice for a file, or a part of it, that lacks its end.
 inline constexpr const char* kCopyAgain = "copy the file again from where it was saved";
 
-// "it is cut short: it has 3 of its 64 curves; copy ...". `there`: the part that exists, or what is missing; may be
+// Message "it is cut short: it has 3 of its 64 curves; copy ...". `there`: the existing or the missing part; may be
 // empty.
 inline std::string cut_short(const std::string& there = {}) {
   return "it is cut short" + (there.empty() ? std::string() : ": " + there) + "; " + kCopyAgain;

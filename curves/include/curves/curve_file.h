@@ -14,7 +14,7 @@
 // Reading and writing of force-distance curves. docs/curves.md describes the contents of each format.
 namespace afm::curves {
 
-// In the order in which a file's content is tested. Each format's functions are a row of kCurves in curve_file.cpp
+// Formats in the order in which a file's content is tested. Each one's functions are a row of kCurves in curve_file.cpp
 // (docs/adding-a-curve-format.md).
 enum class CurveFormat {
   TouchAfmCsv,     // output of `touchafm curve`
@@ -42,15 +42,15 @@ bool begins_like_curve(std::string_view bytes);
 // Format that write_curve() writes.
 struct WritableFormat {
   CurveFormat format = CurveFormat::Tab;
-  std::string_view word;    // name on command lines: "tab"
-  std::string_view ending;  // ".tab"
+  std::string_view word;    // spelling on command lines: "tab"
+  std::string_view ending;  // ending of a file's name: ".tab"
   bool binary = false;
 };
 
-// In the order of CurveFormat.
+// Writable formats in the order of CurveFormat.
 std::vector<WritableFormat> writable_formats();
 
-// The one whose ending a file's name has; empty: none. AFM Workshop's is the only .csv.
+// Format for the ending of a file's name; empty: none. AFM Workshop's is the only .csv.
 std::optional<WritableFormat> writable_format_of(std::string_view name);
 
 // Conversion of a recording to forces, and the curve to read. A given calibration replaces the file's: forces scale
@@ -59,8 +59,8 @@ struct CurveReading {
   std::optional<physics::Stiffness> spring_constant;
   std::optional<double> sensitivity_m_per_v;
   std::size_t index = 0;                  // number of the curve in a file with several (curves/curve_series.h)
-  std::optional<TableColumns> columns{};  // contents of a plain table; if given, the file is read as one
-  bool confined = true;  // foreign formats in a process that cannot open anything; false: here, for a fuzzer
+  std::optional<TableColumns> columns{};  // contents of a plain table; if given, the file is read as a table
+  bool confined = true;  // foreign formats are read in a process that cannot open anything; false: here, for a fuzzer
 };
 
 // Detects the format by its content. BadInputFile, in one line that names the file, for any content that is not
@@ -69,7 +69,7 @@ struct CurveReading {
 // Takes at most 1 GiB.
 core::Result<RecordedCurve> load_curve(const std::string& path, const CurveReading& reading = {});
 
-// The same for the bytes of a file called `name`.
+// Reads the bytes of a file called `name`, as load_curve() does.
 core::Result<RecordedCurve> parse_curve(std::string_view bytes, const std::string& name,
                                         const CurveReading& reading = {});
 

@@ -24,11 +24,11 @@ namespace afm::curves {
 // Fit of one pixel's curve, with the hardest pull found without it. Not a number: not known.
 struct PixelFit {
   double modulus_pa = std::numeric_limits<double>::quiet_NaN();
-  double adhesion_n = std::numeric_limits<double>::quiet_NaN();         // hardest pull of the retract, a magnitude
+  double adhesion_n = std::numeric_limits<double>::quiet_NaN();         // strongest pull of the retract, a magnitude
   double adhesion_j_per_m2 = std::numeric_limits<double>::quiet_NaN();  // W, from a fit to a law of adhesion
-  std::optional<fits::Trust> trust;                                     // empty: no fit
+  std::optional<fits::Trust> trust;                                     // verdict on the fit; empty: no fit
 
-  // The fit means something: its verdict is not "no".
+  // Returns whether the fit is meaningful: its verdict is not "no".
   bool usable() const { return trust && *trust != fits::Trust::No; }
 };
 
@@ -58,7 +58,7 @@ class CurveMap {
   // Height of the lever's base where each curve was pressed hardest, metres, row by row from the top; NaN: no curve.
   const std::vector<double>& heights_m() const { return heights_m_; }
 
-  // The fits in the same order; empty: none was wanted. A pixel without a curve has no fit.
+  // The fits in the order of heights_m(); empty: none requested. A pixel without a curve has no fit.
   const std::vector<PixelFit>& fits() const { return fits_; }
 
   bool holds(const MapPlace& place) const { return place.column < grid_.columns && place.row < grid_.rows; }
@@ -84,7 +84,7 @@ class CurveMap {
   MapGrid grid_;
   std::vector<double> heights_m_;
   std::vector<PixelFit> fits_;
-  std::vector<std::uint32_t> indexes_;  // numbers of the curves in the file, in the order of the heights
+  std::vector<std::uint32_t> indexes_;  // number of each pixel's curve in the file, in the order of the heights
 };
 
 // The curve of a pixel, and its map.
@@ -105,7 +105,7 @@ std::shared_ptr<const scene::SharedMeasuredCurve> shared_curve(const SampleModel
 // "COLUMN,ROW", two whole numbers; empty for any other text.
 std::optional<MapPlace> parse_map_place(std::string_view text);
 
-// "3,1"
+// Text of a place: "3,1".
 std::string text_of(const MapPlace& place);
 
 }  // namespace afm::curves

@@ -17,7 +17,7 @@ namespace afm::curves {
 std::string setup_header(const ContactSetup& setup, const std::string& model,
                          const std::optional<physics::LawChoice>& place);
 
-// The same for a sweep, without the swept numbers.
+// First lines of a sweep's output, as of a curve's, without the swept numbers.
 std::string setup_header(const ContactSetup& setup, std::span<const ContactParameter* const> swept);
 
 // CSV in SI: a # header with every parameter and its source, a line of column names with units, one line per sample.
@@ -38,16 +38,16 @@ nlohmann::ordered_json law_json(const ContactSetup& setup, const std::string& mo
 std::vector<scene::SourcedValue> acting_sources(const ContactSetup& setup,
                                                 std::span<const ContactParameter* const> swept = {});
 
-// One of them as a line of a table: "# source of tip_radius: 50 nm, Liu & Peng, Table 1".
+// A source as a line of a table: "# source of tip_radius: 50 nm, Liu & Peng, Table 1".
 std::string source_line(const scene::SourcedValue& source);
 
-// {KEY: {"value", "source", "estimated"}}
+// Sources as JSON: {KEY: {"value", "source", "estimated"}}.
 nlohmann::ordered_json sources_json(std::span<const scene::SourcedValue> sources);
 
-// Adds them as "sources", and the keys of those that are estimated.
+// Adds the sources as "sources", and the keys of those that are estimated.
 void add_sources(nlohmann::ordered_json& result, std::span<const scene::SourcedValue> sources);
 
-// Its last keys: the sources of the law and of the numbers that act, which of them are estimated, and the program.
+// Adds a curve's last keys: sources of the law and of the numbers that act, which of them are estimated, the program.
 void add_sources(nlohmann::ordered_json& result, const ContactSetup& setup);
 
 // The events as in section 4 of the design, the basis for the choice of the law, and the sources. Null for a jump that

@@ -30,15 +30,15 @@ core::Result<AnalysedCurve> analysed(std::string name, RecordedCurve curve,
 // the differences. `other` may be null.
 std::string features_text(const AnalysedCurve& measured, const AnalysedCurve* other);
 
-// The same in SI. A feature that was not found is null; "beside" and "difference" (this minus the other) exist only
-// with another curve.
+// Features as JSON in SI. A feature that was not found is null; "beside" and "difference" (this minus the other) exist
+// only with another curve.
 nlohmann::ordered_json features_json(const AnalysedCurve& measured, const AnalysedCurve* other);
 
 // Approach and retract for comparison: the contact point at Z = 0 (without one, the curve's own zero), the baseline
 // subtracted.
 std::vector<SvgLine> curve_lines(const AnalysedCurve& curve, const std::string& color);
 
-// Both curves, with the measured one's events marked.
+// Plot of both curves, with the measured one's events marked.
 SvgPlot features_plot(const AnalysedCurve& measured, const AnalysedCurve* other);
 
 }  // namespace afm::curves

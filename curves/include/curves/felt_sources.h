@@ -13,8 +13,8 @@ namespace afm::curves {
 // from the loaded one has `otherwise` as its source; so has every number if `loaded` has no source at all.
 ContactSetup felt_setup(const ContactSetup& loaded, const scene::SharedContact& felt, const std::string& otherwise);
 
-// For a session: sources_json() of the contact that is felt, and of its friction, as text. A number that a person has
-// changed says so.
+// Text for a session: sources_json() of the contact that is felt, and of its friction. A number that a person has
+// changed has that as its source.
 std::string felt_sources(const ContactSetup& loaded, const scene::SharedContact& felt);
 
 // Last keys of a report on a session: "parameters" as parameters_json(), "sources" and "estimated" as add_sources().

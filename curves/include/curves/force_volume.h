@@ -19,7 +19,7 @@ namespace afm::curves {
 // any thread.
 class ForceVolume {
  public:
-  static constexpr std::size_t kMostSide = 128;  // kept pixels
+  static constexpr std::size_t kMostSide = 128;  // largest number of kept pixels along a side
   static constexpr std::size_t kMostPoints = 64;
 
   enum class Way { Approach, Retract };
@@ -49,7 +49,7 @@ class ForceVolume {
 
   // Greatest height at which a curve reaches a force: a push on its approach, a pull on its retract. NaN: nowhere.
   double height_of_m(double force_n, double across, double up) const;
-  // Number of the known pixels at which it is reached.
+  // Number of known pixels at which a force is reached.
   std::size_t reached(double force_n) const;
 
   // Range of the forces without outliers; a pull is negative. Neither is less than a fiftieth of the other.
@@ -60,11 +60,11 @@ class ForceVolume {
   double top_m() const { return top_m_; }
 
  private:
-  // Two numbers are enough to look at, and half the memory.
+  // Point in single precision, which is enough for a picture and half the memory.
   struct Point {
     float height_m, force_n;
   };
-  using Branch = std::vector<Point>;  // points by rising height
+  using Branch = std::vector<Point>;  // points of a branch by rising height
   using Cell = std::array<Branch, 2>;
 
   const Branch& branch_at(Way way, double across, double up) const;
@@ -72,7 +72,7 @@ class ForceVolume {
   void measure();
   static std::size_t stride_of(const MapGrid& grid);
 
-  std::size_t columns_ = 0, rows_ = 0;  // kept pixels; rows from below
+  std::size_t columns_ = 0, rows_ = 0;  // number of kept pixels; rows from below
   MapGrid grid_;
   std::size_t stride_ = 1;
   std::vector<Cell> cells_;

@@ -31,7 +31,7 @@ std::string html_figure(const std::string& html, const std::string& caption);
 // A stereo pair of PNG bytes, embedded in the page.
 std::string html_picture(const std::string& png, const std::string& caption);
 
-// The left eye's half of such a pair, of this many pixels: it fits every browser.
+// The left eye's half of a stereo pair of this many pixels: it fits every browser.
 std::string html_one_eye(const std::string& png, const std::string& caption, std::uint32_t width, std::uint32_t height);
 
 // A figure with a plot that shrinks with the browser instead of scrolling.

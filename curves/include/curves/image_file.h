@@ -24,11 +24,11 @@ enum class ImageFormat {
   Jpk         // JPK, .jpk
 };
 
-// All of them, as help and refusals list them.
+// All formats, as help and refusals list them.
 inline constexpr const char* kImageFiles =
     "Gwyddion .gwy or .gsf, Nanoscope .spm or .001, Igor .ibw, Nanosurf .nid or .nhf, Park .tiff, JPK .jpk";
 
-// "Nanoscope", for use in a sentence.
+// Name of a format for use in a sentence: "Nanoscope".
 std::string_view name_of(ImageFormat format);
 
 // Returns whether a regular file begins like an image.
@@ -38,8 +38,8 @@ bool is_image_file(const std::string& path);
 bool begins_like_image(std::string_view bytes);
 
 struct ImageReading {
-  std::string channel;   // name in upper or lower case; empty: the first height channel, trace before retrace
-  bool confined = true;  // reading in a process that cannot open anything; false: in this process, for a fuzzer
+  std::string channel;   // channel name in upper or lower case; empty: the first height channel, trace before retrace
+  bool confined = true;  // true: reads in a process that cannot open anything; false: in this process, for a fuzzer
 };
 
 struct UnreadChannel {
@@ -50,11 +50,11 @@ struct UnreadChannel {
 // An image as in the file, without levelling; non-finite numbers become NaN.
 struct LoadedImage {
   ImageFormat format = ImageFormat::Gsf;
-  physics::ScanImage image;           // all channels on the grid of the selected one
+  physics::ScanImage image;           // image with all channels on the grid of the selected one
   std::size_t chosen = 0;             // index of the requested channel
   std::vector<std::string> left_out;  // names of channels on other grids
   std::vector<UnreadChannel> unread;  // channels that cannot be read
-  std::vector<std::string> remarks;   // doubts about the header and their solutions, one sentence each
+  std::vector<std::string> remarks;   // remarks on doubts about the header and their solutions, one sentence each
 };
 
 // BadInputFile, in one line that names the file, for any content that is not completely understood: truncated, altered,
@@ -62,7 +62,7 @@ struct LoadedImage {
 // that cannot be read costs only itself, unless it is the requested one or the file is cut short.
 core::Result<LoadedImage> load_image(const std::string& path, const ImageReading& reading = {});
 
-// The same for the bytes of a file called `name`.
+// Reads the bytes of a file called `name`, as load_image() does.
 core::Result<LoadedImage> parse_image(std::string_view bytes, const std::string& name,
                                       const ImageReading& reading = {});
 

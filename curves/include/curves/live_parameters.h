@@ -48,7 +48,7 @@ class LiveParameters {
   // Complete state, relative to the loaded model, for transfer to another machine.
   struct State {
     std::array<int, kRows> steps{};
-    std::optional<Row> refused;  // row whose last step changed nothing
+    std::optional<Row> refused;  // row whose last step changed nothing; empty: none
     int refused_direction = 0;
 
     bool operator==(const State&) const = default;
@@ -60,20 +60,20 @@ class LiveParameters {
   // The model with the current parameters, which the caller sends to the servo.
   const SampleModel& model() const { return now_; }
 
-  std::string value(Row row) const;                                           // includes the unit
-  bool automatic_law() const { return !law_after(steps_[index(Row::Law)]); }  // law from the adhesion map
+  std::string value(Row row) const;                                           // value with its unit
+  bool automatic_law() const { return !law_after(steps_[index(Row::Law)]); }  // true: the adhesion map selects the law
   bool changed(Row row) const { return steps_[index(row)] != 0; }
   bool changed() const { return steps_ != Steps{}; }
 
-  const physics::ForceCurve& curve() const { return curve_; }  // predicted, one cycle
-  const std::string& refusal() const { return refusal_; }      // why the last step changed nothing, or empty
+  const physics::ForceCurve& curve() const { return curve_; }  // predicted curve of one cycle
+  const std::string& refusal() const { return refusal_; }      // reason why the last step changed nothing, or empty
 
  private:
   // Number of steps of each row from the loaded value; for the law, places in the list of laws.
   using Steps = std::array<int, kRows>;
 
   static std::size_t index(Row row) { return static_cast<std::size_t>(row); }
-  std::optional<physics::Law> law_after(int steps) const;  // empty: the adhesion map's
+  std::optional<physics::Law> law_after(int steps) const;  // empty: the adhesion map selects the law
   bool take(const Steps& steps);
   bool take_pixel(const Steps& steps);
   std::optional<MapPlace> place_after(const Steps& steps) const;  // empty: outside the map

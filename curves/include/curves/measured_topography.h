@@ -34,7 +34,7 @@ core::Result<MeasuredTopography> load_topography(const std::string& path, const 
 // One line each for file, channels, size, mean, Sq and levelling, with units.
 std::string topography_text(const MeasuredTopography& topography);
 
-// The same in SI.
+// Topography as JSON in SI.
 nlohmann::ordered_json topography_json(const MeasuredTopography& topography);
 
 // The levelled heights to feel and draw, 0 at the origin. They are the image's points if its pixels are square and no

@@ -16,11 +16,11 @@ namespace afm::curves {
 std::string paper_markdown(const PaperTables& tables, const scene::MaterialLibrary& library, std::string_view run,
                            std::string_view survey);
 
-// The same in JSON: SI, magnitudes.
+// The tables as JSON: SI, magnitudes.
 std::string paper_json(const PaperTables& tables, const scene::MaterialLibrary& library,
                        const nlohmann::ordered_json& survey);
 
-// One line per number, in the table's unit.
+// Tables with one line per number, in the table's unit.
 std::string table1_csv(const PaperTables& tables);
 std::string table2_csv(const PaperTables& tables);
 

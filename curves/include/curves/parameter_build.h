@@ -32,8 +32,8 @@ class ParameterBuild {
   };
   void begin(LiveParameters from);
 
-  std::future<LiveParameters> built_;  // invalid: no build runs
-  bool dropped_ = false;               // unwanted result of the running build
+  std::future<LiveParameters> built_;  // result of the running build; invalid: none is running
+  bool dropped_ = false;               // true: the result of the running build is discarded
   std::vector<Step> waiting_;
 };
 

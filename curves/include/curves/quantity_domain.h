@@ -11,7 +11,7 @@
 
 namespace afm::curves {
 
-// Both ends are legal.
+// Range that includes both ends.
 template <class Q>
 struct QuantityRange {
   Q least, most;
@@ -19,12 +19,12 @@ struct QuantityRange {
 
 // Units of one physical quantity, and its range of legal values in SI.
 struct QuantityDomain {
-  std::string_view sort;  // "a length"
+  std::string_view sort;  // quantity as messages name it, "a length"
   std::span<const physics::Unit> units;
   std::optional<QuantityRange<double>> range{};
 };
 
-// "100pm to 1mm", or the units if there is no range.
+// Range as text, "100pm to 1mm", or the units if there is no range.
 std::string legal_values(const QuantityDomain& domain);
 
 // Reason why the value is not legal, in one line that quotes `text`; empty if it is.

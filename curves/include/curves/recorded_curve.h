@@ -20,9 +20,9 @@ struct CurvePosition {
 
 // Grid of a map of curves.
 struct MapGrid {
-  std::size_t columns = 0, rows = 0;      // 1 to kMostMapSide
-  double width_m = 0, height_m = 0;       // from edge to edge of the outer pixels; positive
-  double center_x_m = 0, center_y_m = 0;  // in the frame of CurvePosition
+  std::size_t columns = 0, rows = 0;      // size in pixels, 1 to kMostMapSide
+  double width_m = 0, height_m = 0;       // size from edge to edge of the outer pixels; positive
+  double center_x_m = 0, center_y_m = 0;  // centre in the frame of CurvePosition
   bool operator==(const MapGrid&) const = default;
 };
 inline constexpr std::size_t kMostMapSide = 8192;
@@ -46,16 +46,16 @@ std::optional<MapPixel> pixel_at(const CurvePosition& position, const MapGrid& g
 // A file's information on how its curve was recorded; missing information is empty.
 struct CurveMetadata {
   std::optional<physics::Stiffness> spring_constant;
-  std::optional<double> sensitivity_m_per_v;  // optical lever: deflection per volt ("InvOLS")
+  std::optional<double> sensitivity_m_per_v;  // deflection per volt of the optical lever ("InvOLS")
   std::optional<physics::Velocity> approach_speed;
   std::optional<physics::Velocity> retract_speed;
   std::optional<physics::Force> setpoint;
   std::string instrument;
   std::string software;
   std::string software_version;
-  std::string date;      // YYYY-MM-DD
-  std::string time;      // HH:MM:SS, local to the instrument
-  std::string curve_id;  // identifies the curve
+  std::string date;      // date as YYYY-MM-DD
+  std::string time;      // time as HH:MM:SS, local to the instrument
+  std::string curve_id;  // identifier of the curve
   std::optional<CurvePosition> position;
   std::optional<MapPixel> pixel;
   // Inputs of a computed curve and other entries of TouchAFM's own files: keys with their units, "tip_radius_m".

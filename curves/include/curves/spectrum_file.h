@@ -13,18 +13,18 @@
 namespace afm::curves {
 
 struct SpectrumRow {
-  double frequency_hz = 0;  // above zero, rising from row to row
+  double frequency_hz = 0;  // frequency above zero, rising from row to row
   double density = 0;       // one-sided power density, V^2/Hz or m^2/Hz; not negative
 };
 
 struct Spectrum {
   std::vector<SpectrumRow> rows;
-  bool in_volts = false;  // volts of the detector; false: metres of deflection
+  bool in_volts = false;  // true: volts of the detector; false: metres of deflection
 };
 
 struct SpectrumReading {
-  std::string units;       // "kHz, nm2/Hz" instead of the heading's; empty: the heading's
-  std::size_t column = 2;  // column of the densities, from 1; the first one is the frequency's
+  std::string units;       // units in place of the heading's, "kHz, nm2/Hz"; empty: the heading's
+  std::size_t column = 2;  // column of the densities, from 1; column 1 contains the frequencies
 };
 
 inline constexpr std::size_t kMostSpectrumRows = 500'000;
@@ -36,7 +36,7 @@ inline constexpr std::size_t kMostSpectrumColumns = 64;
 // line without a line end, which may have lost digits.
 core::Result<Spectrum> load_spectrum(const std::string& path, const SpectrumReading& reading = {});
 
-// The same for the bytes of a file called `name`.
+// Reads the bytes of a file called `name`, as load_spectrum() does.
 core::Result<Spectrum> parse_spectrum(std::string_view bytes, const std::string& name,
                                       const SpectrumReading& reading = {});
 

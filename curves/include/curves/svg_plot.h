@@ -17,29 +17,29 @@ struct SvgPoint {
 enum class LineStyle { Solid, Dashed };
 
 struct SvgLine {
-  std::string label;  // legend entry; empty: none
-  std::string color;  // CSS colour
+  std::string label;  // legend entry; empty: not in the legend
+  std::string color;  // colour in CSS notation
   LineStyle style = LineStyle::Solid;
-  std::vector<SvgPoint> points;  // the line breaks at a point that is not finite
+  std::vector<SvgPoint> points;  // points of the line, which breaks at one that is not finite
 };
 
 // A dot on the plot with a text next to it, or only a text.
 struct SvgMark {
   SvgPoint at;
-  std::string text;  // empty: only the dot
+  std::string text;  // text next to the dot; empty: only the dot
   std::string color;
-  enum class Side { Left, Right, Above, Below, Centre } side = Side::Right;  // Centre: the text instead of the dot
+  enum class Side { Left, Right, Above, Below, Centre } side = Side::Right;  // Centre: in place of the dot
 };
 
 enum class AxisScale { Linear, Logarithmic };
 
 struct SvgPlot {
   std::string title;
-  std::string x_label;  // includes the unit
-  std::string y_label;  // includes the unit
+  std::string x_label;  // label with the unit
+  std::string y_label;  // label with the unit
   std::vector<SvgLine> lines;
   std::vector<SvgMark> marks;
-  AxisScale x_scale = AxisScale::Linear;  // logarithmic: the line breaks at values <= 0
+  AxisScale x_scale = AxisScale::Linear;  // scale of x; logarithmic: the line breaks at values <= 0
   AxisScale y_scale = AxisScale::Linear;
   char decimal_mark = '.';
   int width = 960;
@@ -59,7 +59,7 @@ std::vector<SvgPoint> simplified(std::span<const SvgPoint> points, double tolera
 // to 1.
 std::string svg(const SvgPlot& plot);
 
-// Several plots below each other in one such element.
+// Several plots below each other in one <svg> element.
 std::string svg(std::span<const SvgPlot> column);
 
 }  // namespace afm::curves

@@ -17,11 +17,11 @@ namespace afm::curves {
 // A parameter with `count` values from `from` to `to`, both included, or with any values.
 struct SweepAxis {
   const ContactParameter* parameter = nullptr;
-  double from = 0.0;  // SI
-  double to = 0.0;    // SI
+  double from = 0.0;  // first value, SI
+  double to = 0.0;    // last value, SI
   std::uint64_t count = 0;
   bool logarithmic = false;
-  std::vector<double> values{};  // SI, `count` of them; empty: by the four above
+  std::vector<double> values{};  // `count` values, SI; empty: determined by the members above
 
   double value(std::uint64_t index) const;
 };
@@ -37,18 +37,18 @@ core::Result<SweepAxis> parse_sweep_axis(const std::string& text, const ModelNam
 
 // Results of one cycle at one point of a sweep; forces signed. Without hysteresis the jumps are null.
 struct SweepRow {
-  std::array<double, 2> at{};  // SI, by axis
+  std::array<double, 2> at{};  // value on each axis, SI
   std::string model;
-  std::string regime;  // empty, and the two below NaN, if the contact has no position on the map
+  std::string regime;  // regime of the contact; empty, and tabor and maugis NaN, without a position on the map
   double tabor = 0.0;
   double maugis = 0.0;
-  double snap_in_z_m = 0.0;  // NaN without a jump to contact, as are the next two
+  double snap_in_z_m = 0.0;  // Z of the jump to contact; this and the next two NaN without a jump
   double snap_in_force_before_n = 0.0;
   double snap_in_force_after_n = 0.0;
-  double pull_off_z_m = 0.0;  // NaN without a jump off contact, as is the next
+  double pull_off_z_m = 0.0;  // Z of the jump off contact; this and the next NaN without a jump
   double pull_off_force_n = 0.0;
   double loop_energy_j = 0.0;
-  double critical_stiffness_n_per_m = 0.0;  // infinite if the hysteresis never vanishes
+  double critical_stiffness_n_per_m = 0.0;  // critical stiffness; infinite if the hysteresis never vanishes
   std::string refusal;                      // reason why these values have no such curve; all others are then unknown
 };
 

@@ -24,7 +24,7 @@ struct SyntheticFile {
   std::string truth;
 };
 
-// Points of all curves of a file.
+// Limit of the points of all curves of a file.
 inline constexpr std::size_t kMostSyntheticPoints = 2'000'000;
 
 // `count` curves that differ in their noise. `setup` is of apply(). WrongUsage, with the option to change, for a tip
@@ -47,11 +47,11 @@ inline constexpr std::array kFieldShapes{
 static_assert(core::has_row_for_each(kFieldShapes, &FieldShapeRow::shape));
 
 // Pixels and width of a map, unless others are given, and legal values of a request.
-inline constexpr std::size_t kUsualMapPixels = 16, kMostMapPixels = 512;  // along a side
+inline constexpr std::size_t kUsualMapPixels = 16, kMostMapPixels = 512;  // number along a side
 inline constexpr double kUsualMapWidthM = 10e-6;
 inline constexpr QuantityRange<double> kMapWidthsM{1e-9, 1e-3}, kMapModuliPa{1.0, 1e12}, kMapWorksJPerM2{1e-6, 10.0};
 
-// Square pixels around the origin.
+// Grid of square pixels around the origin.
 constexpr MapGrid map_grid(std::size_t columns, std::size_t rows, double width_m) {
   return {columns, rows, width_m, width_m * static_cast<double>(rows) / static_cast<double>(columns), 0.0, 0.0};
 }
@@ -59,7 +59,7 @@ constexpr MapGrid map_grid(std::size_t columns, std::size_t rows, double width_m
 struct SyntheticMap {
   MapGrid grid = map_grid(kUsualMapPixels, kUsualMapPixels, kUsualMapWidthM);
   FieldShape shape = FieldShape::Uniform;
-  double second_modulus_pa = 0, second_work_j_per_m2 = 0;  // zero: as the first
+  double second_modulus_pa = 0, second_work_j_per_m2 = 0;  // second values; zero: equal to the first
 };
 
 // A curve a pixel, the bottom row first and each from the left. WrongUsage as synthetic_curves(), and for second values

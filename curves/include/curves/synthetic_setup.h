@@ -15,11 +15,11 @@ namespace afm::curves {
 
 // Inputs of a synthetic curve, in SI. Numbers are those of kSyntheticFields; zero: none, or not used.
 struct SyntheticSetup {
-  fits::Shape shape = fits::Shape::Paraboloid;  // not Auto
+  fits::Shape shape = fits::Shape::Paraboloid;  // shape of the indenter, not Auto
   fits::Base base = fits::Base::Bonded;         // support of an exact layer
   std::uint32_t seed = 1;
-  std::size_t points = 1000;  // number in each branch
-  double modulus_pa = 0;      // Young's
+  std::size_t points = 1000;  // number of points in each branch
+  double modulus_pa = 0;      // Young's modulus
   double poisson = 0.5;
   double radius_m = 0, half_angle_rad = 0, layer_m = 0;
   double work_j_per_m2 = 0;
@@ -27,7 +27,7 @@ struct SyntheticSetup {
   double spring_n_per_m = 0;
   double most_force_n = 0;         // true force at which the base turns
   double contact_m = 0;            // height of the base at which the approach meets the sample
-  double clearance_m = 0;          // height above it at which the curve begins; zero: chosen
+  double clearance_m = 0;          // height above contact_m at which the curve begins; zero: chosen automatically
   double speed_m_per_s = 1e-6;     // velocity of the base
   double sensitivity_m_per_v = 0;  // deflection per volt of the optical lever
   double noise_n = 0;              // rms of the force
@@ -35,12 +35,12 @@ struct SyntheticSetup {
   double bits = 0;                 // resolution of the digitiser over kDetectorRangeV
   double level_n = 0;              // baseline at the first point
   double tilt_n_per_m = 0;         // slope of the baseline
-  double drift_m_per_s = 0;        // velocity of the sample, upwards
+  double drift_m_per_s = 0;        // upward velocity of the sample
   double wave_n = 0;               // amplitude of a wave of interference
-  double wave_period_m = 0;        // in the height of the base
+  double wave_period_m = 0;        // period of the wave in the height of the base
 };
 
-inline constexpr double kDetectorRangeV = 10.0;  // either way
+inline constexpr double kDetectorRangeV = 10.0;  // limit in either direction
 inline constexpr std::size_t kFewestSyntheticPoints = 50;
 
 // Use of a number by a set-up.
@@ -48,10 +48,10 @@ enum class FieldUse { Required, Optional, None };
 
 // Description of one number for options, checks and truths.
 struct SyntheticField {
-  std::string_view option;    // without its dashes
-  std::string_view json_key;  // with its unit
+  std::string_view option;    // option, without its dashes
+  std::string_view json_key;  // key in JSON, with its unit
   std::string_view help;
-  double smallest, largest;  // SI, both legal
+  double smallest, largest;  // legal range, SI, both ends included
   const physics::Units* units;
   double SyntheticSetup::* member;
   FieldUse (*use)(const SyntheticSetup& setup);

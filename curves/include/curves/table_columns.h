@@ -13,14 +13,14 @@ enum class ColumnKind { Height, Force, Deflection, RetractForce, RetractDeflecti
 
 struct TableColumn {
   ColumnKind kind = ColumnKind::Nothing;
-  double si_per_unit = 1;  // V for a deflection in volts; negative if the sign is reversed
+  double si_per_unit = 1;  // factor to SI; V for a deflection in volts; negative if the sign is reversed
   bool volts = false;
 };
 
-// One for each column, from the left.
+// Columns of a table from the left.
 using TableColumns = std::vector<TableColumn>;
 
-// From "height:um force:nN": the columns' names with their units, separated by blanks; "-" is a column that is not
+// Parses "height:um force:nN": the columns' names with their units, separated by blanks; "-" is a column that is not
 // read, and "deflection:-V" one whose sign is reversed. WrongUsage, with the names and units that are known, for
 // anything else, and unless there are one height and one force or deflection.
 core::Result<TableColumns> parse_table_columns(std::string_view text);

@@ -10,14 +10,14 @@
 #include "core/result.h"
 #include "physics/quantity_text.h"
 
-// KEY=VALUE, once for each key, as --uncertainty has it.
+// Parsing of KEY=VALUE, once for each key, as of --uncertainty.
 namespace afm::curves {
 
-inline constexpr double kMostUncertainty = 0.5;  // share beyond which the first order is not enough
+inline constexpr double kMostUncertainty = 0.5;  // largest relative uncertainty to the first order
 
 struct UncertainKey {
   std::string_view name;
-  std::span<const physics::Unit> units;  // accepted, as is per cent
+  std::span<const physics::Unit> units;  // accepted units, in addition to per cent
 };
 
 // Positive standard uncertainty: a share of up to kMostUncertainty, or in SI.

@@ -17,7 +17,7 @@ inline constexpr std::size_t kArdfHead = 16;
 
 // A whole section, its head included.
 struct ArdfSection {
-  std::size_t offset = 0;  // in the file
+  std::size_t offset = 0;  // offset in the file
   std::string_view name, bytes;
 
   std::size_t end() const { return offset + bytes.size(); }
@@ -29,12 +29,12 @@ ArdfSection ardf_section(std::string_view file, std::uint64_t offset, std::strin
 
 // A section of 32 bytes and the table that follows it. Each entry has `stride` bytes and its own header.
 struct ArdfTable {
-  std::vector<ArdfSection> entries;  // those in use; the rest of the table is zero
-  std::size_t end = 0;               // in the file
+  std::vector<ArdfSection> entries;  // entries in use; the rest of the table is zero
+  std::size_t end = 0;               // end of the table in the file
 };
 ArdfTable ardf_table(std::string_view file, std::uint64_t offset, std::string_view name, std::size_t stride);
 
-// A text of `size` bytes that ends with a zero, or fills them.
+// Text of at most `size` bytes, ended by a zero or by its size.
 std::string_view ardf_text(const ArdfSection& section, std::size_t offset, std::size_t size);
 
 }  // namespace afm::curves

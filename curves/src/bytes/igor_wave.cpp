@@ -20,14 +20,14 @@ constexpr std::size_t kWaveSize = 4, kFormulaSize = 8, kNoteSize = 12, kDataUnit
                       kDimLabelsSizes = 36, kDataType = 80, kName = 92, kDimensions = 132, kSpacings = 148,
                       kOrigins = 180, kDataUnit = 212, kDimensionUnits = 216, kData = 384, kWaveHeaderSize = 320,
                       kLabelSize = 32, kUnitSize = 4;
-constexpr std::size_t kOldHeaders = 126;  // BinHeader2 and WaveHeader2
+constexpr std::size_t kOldHeaders = 126;  // size of BinHeader2 and WaveHeader2 in bytes
 
-// The byte order in which the version is a small number.
+// Byte order in which the version is a small number.
 std::endian order_of(std::string_view bytes) {
   return number_at<std::uint16_t>(bytes, 0) < 0x100 ? std::endian::little : std::endian::big;
 }
 
-// Zero for undamaged headers.
+// Sum of the headers' words, zero if they are undamaged.
 std::uint16_t sum_of_words(std::string_view headers, std::endian order) {
   std::uint16_t sum = 0;
   for (std::size_t i = 0; i + 1 < headers.size(); i += 2) {
@@ -36,7 +36,7 @@ std::uint16_t sum_of_words(std::string_view headers, std::endian order) {
   return sum;
 }
 
-// A length in the file, stored as a signed number.
+// Length stored in the file as a signed number.
 std::size_t length_at(std::string_view bytes, std::size_t offset) {
   const auto value = number_at<std::int32_t>(bytes, offset, order_of(bytes));
   if (value < 0) throw CurveError("it is damaged: a length in its header is negative");
@@ -59,7 +59,7 @@ void check_header(std::string_view bytes) {
   if (sum_of_words(part(bytes, 0, kData), order) != 0) throw CurveError("the checksum of its header is wrong");
 }
 
-// A plain matrix: two dimensions, or a third of one layer, without labels that would make the columns or layers
+// True for a plain matrix: two dimensions, or a third of one layer, without labels that would make columns or layers
 // channels.
 bool is_matrix(std::string_view bytes) {
   return length_at(bytes, kDimensions + 4) > 0 && length_at(bytes, kDimensions + 8) <= 1 &&

@@ -19,12 +19,12 @@ struct IgorWave {
   std::size_t rows = 0;     // length of the first dimension, which runs fastest
   std::size_t columns = 0;  // length of the second dimension
   std::size_t layers = 0;   // length of the third dimension; 0: a table
-  bool is_matrix = false;   // one layer, without a label
+  bool is_matrix = false;   // true: one layer without a label
   std::size_t number_size = 0;
   std::endian order = std::endian::little;
   std::array<double, 2> spacing{};  // sampling steps of the first two dimensions, in their units
   std::array<double, 2> origin{};
-  std::array<std::string_view, 2> units;  // units of the first two dimensions, "m"
+  std::array<std::string_view, 2> units;  // units of the first two dimensions, such as "m"
   std::string_view data_unit;
   std::string_view data;
   std::string_view note;

@@ -23,7 +23,7 @@ constexpr std::size_t kMostHeaderBytes = std::size_t{4} << 20U;
 
 constexpr std::string_view kHeaderEnd = "\\*File list end";
 
-// "\key: value"; the colon in "@2:Z scale" belongs to the key.
+// Adds a line "\key: value"; the colon in "@2:Z scale" belongs to the key.
 void add_line(std::string_view line, NanoscopeBlock& block) {
   const bool counted =
       line.size() > 2 && line[0] == '@' && std::isdigit(static_cast<unsigned char>(line[1])) != 0 && line[2] == ':';
@@ -32,8 +32,8 @@ void add_line(std::string_view line, NanoscopeBlock& block) {
   block.values.emplace(lower_key(trimmed(line.substr(0, colon))), trimmed(line.substr(colon + 1)));
 }
 
-// Takes the text between a bracket and its counterpart, with all before it; empty if they do not come next. Brackets
-// may be nested: "(0.0003 log(Arb)/LSB)".
+// Takes the text between a bracket and its counterpart, with everything before it; empty if they do not come next.
+// Brackets may be nested: "(0.0003 log(Arb)/LSB)".
 std::string_view take_between(char open, char close, std::string_view& text) {
   text = trimmed(text);
   if (!text.starts_with(open)) return {};

@@ -14,8 +14,8 @@
 namespace afm::curves {
 
 struct NanoscopeBlock {
-  std::string_view name;                           // "Ciao image list"
-  std::map<std::string, std::string_view> values;  // keys in lower case, "@2:z scale"
+  std::string_view name;                           // name of the block, "Ciao image list"
+  std::map<std::string, std::string_view> values;  // values by key in lower case, "@2:z scale"
 
   const std::string_view* find(const std::string& key) const {
     const auto found = values.find(key);
@@ -30,15 +30,15 @@ std::vector<NanoscopeBlock> nanoscope_blocks(std::string_view bytes);
 
 // False for a file that is cut off in its header.
 bool nanoscope_header_ends(std::string_view bytes);
-inline constexpr const char* kNoHeaderEnd = "its header has no end";  // part that is then missing
+inline constexpr const char* kNoHeaderEnd = "its header has no end";  // part missing in such a file
 
-// The name "Deflection Error" in S [DeflectionError] "Deflection Error"; empty without one.
+// The name "Deflection Error" in S [DeflectionError] "Deflection Error"; empty if there is none.
 std::string_view nanoscope_channel(const NanoscopeBlock& channel);
 
-// Version, such as 0x09300201; 0 if no block has it.
+// Version of the program, such as 0x09300201; 0 if no block has it.
 std::uint32_t nanoscope_version(const std::vector<NanoscopeBlock>& blocks);
 
-// "04:42:34 PM Tue Sep 11 2007" as YYYY-MM-DD and HH:MM:SS; empty for any other text.
+// Date and time YYYY-MM-DD and HH:MM:SS of "04:42:34 PM Tue Sep 11 2007"; empty for any other text.
 struct NanoscopeTime {
   std::string day, clock;
 };
@@ -47,25 +47,25 @@ NanoscopeTime nanoscope_time(std::string_view text);
 // The number at the front of a value. Throws CurveError if there is none.
 double nanoscope_number(const NanoscopeBlock& block, const std::string& key);
 
-// In N/m, the unit that Nanoscope leaves out; other programs may write another one. Throws CurveError for one that is
-// none of a spring constant.
+// Spring constant in N/m, the unit that Nanoscope omits; other programs may write another one. Throws CurveError for a
+// unit of anything else.
 double nanoscope_spring_constant(const NanoscopeBlock& channel);
 
-// First byte of a channel's data. Throws CurveError if it is none of the file behind the header.
+// Offset of a channel's data. Throws CurveError if it is not in the file after the header.
 std::size_t nanoscope_data_offset(const NanoscopeBlock& channel, std::string_view bytes);
 
 // Takes the number at the front of the text.
 std::optional<double> take_number(std::string_view& text);
 
-// "V [Sens. Zsens] (0.0067 V/LSB) 440 V": an integer times `per_lsb` is the value, and `value` that of all integers.
+// Scale "V [Sens. Zsens] (0.0067 V/LSB) 440 V": an integer times `per_lsb` is the value, `value` that of all integers.
 struct HardScale {
-  std::string_view soft_name;  // "Sens. Zsens", or empty
+  std::string_view soft_name;  // name in the brackets, "Sens. Zsens", or empty
   std::optional<double> per_lsb;
-  std::string_view per_lsb_unit;  // empty if the bracket has none
+  std::string_view per_lsb_unit;  // unit of per_lsb; empty if the bracket has none
   std::optional<double> value;
   std::string_view unit;
 };
-// Empty if the text does not begin with "V".
+// Scale of a text; empty if it does not begin with "V".
 std::optional<HardScale> hard_scale(const std::string_view* text);
 
 struct SoftScale {
@@ -73,7 +73,7 @@ struct SoftScale {
   std::string unit;
 };
 
-// "V 12.5 nm/V" of "@Sens. Zsens", or "V 1 log(Pa)/log(Arb)", from any block. `per` is the unit behind the stroke.
+// Scale "V 12.5 nm/V" of "@Sens. Zsens", or "V 1 log(Pa)/log(Arb)", from any block. `per` is the unit after the slash.
 std::optional<SoftScale> soft_scale(const std::vector<NanoscopeBlock>& blocks, std::string_view name,
                                     std::string_view per);
 
@@ -84,7 +84,7 @@ inline constexpr std::string_view kNanoscopeForceList = "ciao force list";
 // exactly, which in older files is that of the screen. Throws CurveError without a scale.
 double nanoscope_value_per_integer(const NanoscopeBlock& channel, std::size_t integer_size);
 
-// Metres of a volt, by the sensitivity of that name; empty where the file does not tell.
+// Metres per volt by the sensitivity of that name; empty if the file has none.
 std::optional<double> nanoscope_metres_per_volt(const std::vector<NanoscopeBlock>& blocks, std::string_view name);
 
 // The length of the ramp: "@4:Ramp size" of the channel, or an older key of the force list. Throws CurveError without

@@ -40,7 +40,7 @@ void read_sections(std::string_view text, std::size_t most_infos, NanosurfFile& 
   }
 }
 
-// Bytes of a channel, which may be one line.
+// Number of bytes of a channel, which may be one line.
 std::size_t size_of(const NanosurfSection& channel) {
   constexpr double kMostPoints = 1e9;
   const double points = channel.needed("Points") * channel.needed("Lines");
@@ -96,7 +96,7 @@ NanosurfFile nanosurf_file(std::string_view bytes, std::size_t most_infos, Nanos
     const double channels = std::min(set->number(fmt::format("Gr{}-Count", group)).value_or(0.0), kMostChannelNumber);
     for (int number = 0; number < channels; ++number) {
       const auto name = set->text(fmt::format("Gr{}-Ch{}", group, number));
-      if (!name) continue;  // a count includes the channels that were not saved
+      if (!name) continue;  // channel that was counted but not saved
       const NanosurfSection* channel = file.section(*name);
       if (channel == nullptr) throw CurveError(fmt::format("it has no section [{}]", *name));
       const std::size_t size = size_of(*channel);
@@ -130,7 +130,7 @@ double nanosurf_share(std::string_view numbers, std::size_t index, const Nanosur
                                  : integers.size == 2 ? number_at<std::uint16_t>(numbers, at, integers.order)
                                                       : number_at<std::uint32_t>(numbers, at, integers.order);
   if (!integers.is_signed) return unsigned_number / range;
-  return std::fmod(unsigned_number / range + 0.5, 1.0);  // two's complement, from the lowest number on
+  return std::fmod(unsigned_number / range + 0.5, 1.0);  // share above the lowest number of a two's complement
 }
 
 }  // namespace afm::curves

@@ -27,12 +27,12 @@ struct NanosurfSection {
   std::map<std::string_view, std::string_view> values;
 
   std::optional<std::string_view> text(std::string_view key) const;
-  std::optional<double> number(std::string_view key) const;  // finite
-  double needed(std::string_view key) const;                 // throws without it
+  std::optional<double> number(std::string_view key) const;  // finite number of a key; empty: none
+  double needed(std::string_view key) const;                 // finite number of a key; throws without it
 };
 
 struct NanosurfChannel {
-  std::string_view group;  // "Scan forward"
+  std::string_view group;  // name of the group, "Scan forward"
   const NanosurfSection* section = nullptr;
   std::string_view numbers;
 };
@@ -40,14 +40,14 @@ struct NanosurfChannel {
 struct NanosurfFile {
   std::map<std::string_view, NanosurfSection> sections;
   std::vector<NanosurfChannel> channels;
-  std::vector<std::pair<std::string, std::string>> infos;  // in the order of the file
+  std::vector<std::pair<std::string, std::string>> infos;  // information of the file, in its order
 
   NanosurfFile() = default;
   NanosurfFile(NanosurfFile&&) = default;
   NanosurfFile(const NanosurfFile&) = delete;
   NanosurfFile& operator=(const NanosurfFile&) = delete;
 
-  // Null without it.
+  // Section of that name; null if there is none.
   const NanosurfSection* section(std::string_view name) const;
 };
 

@@ -19,7 +19,7 @@ constexpr std::array kPrefixes{Prefix{"f", 1e-15},       Prefix{"p", 1e-12},   P
                                Prefix{"u", 1e-6},        Prefix{"~", 1e-6},    Prefix{"\xc2\xb5", 1e-6},
                                Prefix{"\xce\xbc", 1e-6}, Prefix{"\xb5", 1e-6}, Prefix{"m", 1e-3},
                                Prefix{"k", 1e3},         Prefix{"M", 1e6},     Prefix{"G", 1e9}};
-constexpr std::array<std::string_view, 3> kAngstroms{"\u00c5", "\u212b", "\xc5"};  // UTF-8 twice, Latin-1
+constexpr std::array<std::string_view, 3> kAngstroms{"\u00c5", "\u212b", "\xc5"};  // UTF-8, UTF-8, Latin-1
 constexpr std::array<std::string_view, 10> kSiUnits{"m", "V", "N", "A", "Hz", "Pa", "s", "J", "W", "deg"};
 
 bool is_unit(std::string_view text) {

@@ -16,7 +16,7 @@ struct ColumnsLine {
   char separator = ',';
 };
 
-// The first line with the column among its cells.
+// First line with the column among its cells.
 std::optional<ColumnsLine> columns_line(std::string_view bytes, std::string_view column) {
   std::string_view line;
   std::vector<std::string_view> cells;
@@ -35,12 +35,12 @@ std::optional<ColumnsLine> columns_line(std::string_view bytes, std::string_view
 
 bool is_quoted(std::string_view line) { return line.size() >= 2 && line.front() == '"' && line.back() == '"'; }
 
-// A line above the columns without the empty cells behind it.
+// Line above the columns without the empty cells at its end.
 std::string_view without_empty_cells(std::string_view line, char separator) {
   return line.substr(0, line.find_last_not_of(separator) + 1);
 }
 
-// The text of a cell in quotes.
+// Text of a cell without its quotes.
 std::string unquoted(std::string_view line) {
   std::string text(line.substr(1, line.size() - 2));
   for (std::size_t at = 0; (at = text.find("\"\"", at)) != std::string::npos; ++at) text.erase(at, 1);

@@ -7,7 +7,7 @@
 
 namespace afm::curves {
 
-// Remark on such a table.
+// Remark on a table that undo_spreadsheet() restored.
 inline constexpr const char* kSavedBySpreadsheet = "a spreadsheet saved it again, which may have rounded its numbers";
 
 // A table between commas as it was before a spreadsheet saved it again: without the quotes and the empty cells of its

@@ -22,8 +22,8 @@ namespace afm::curves {
 
 namespace {
 
-// Separators, in the order in which they are tried: commas last, because they may be decimal ones. A blank: any number
-// of blanks and tabs.
+// Separators in the order of trial: commas last, because they may be decimal ones. A blank: any number of blanks and
+// tabs.
 constexpr std::array kSeparators{'\t', ';', ' ', ','};
 
 void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields) {
@@ -38,12 +38,12 @@ void split_line(std::string_view line, char separator, std::vector<std::string_v
 
 struct TableNumber {
   double value = 0;
-  bool has_point = false, has_comma = false;  // the decimal mark
+  bool has_point = false, has_comma = false;  // decimal marks found
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// A number, in quotes or without, with a decimal comma where commas do not separate. Empty if it is none.
+// Number in quotes or without, with a decimal comma where commas do not separate. Empty for anything else.
 std::optional<TableNumber> table_number(std::string_view field, char separator) {
   field = trimmed(field);
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
@@ -85,7 +85,7 @@ std::string_view base_unit(const TableColumn& column) {
   return {};
 }
 
-// The unit in the words above a column, "Height (um)", "Height / um", "height_um", or what is where one would be.
+// Unit in the words above a column, "Height (um)", "Height / um", "height_um", or the words at its place.
 std::string_view unit_in(std::string_view words) {
   const std::size_t open = words.find_last_of("(["), close = words.find_last_of(")]");
   if (open != std::string_view::npos && close != std::string_view::npos && close > open) {
@@ -95,7 +95,7 @@ std::string_view unit_in(std::string_view words) {
   if (mark == std::string_view::npos) return {};
   const std::string_view last = words.substr(mark + 1);
   const bool follows_stroke = words.substr(0, mark + 1).find_last_not_of(' ') == words.substr(0, mark + 1).rfind('/');
-  return last.size() > 1 || follows_stroke ? last : std::string_view();  // "column V" may be one of many
+  return last.size() > 1 || follows_stroke ? last : std::string_view();  // empty for "column V", one of many
 }
 
 // Returns whether the words above a column name another unit.
@@ -157,7 +157,7 @@ class TableReader {
     }
   }
 
-  // Behind the last line.
+  // Call after the last line.
   void finish() {
     leave_out_counts();
     if (padding_ > 0) remarks_.push_back(fmt::format("its last {} lines have no numbers: they are left out", padding_));
@@ -174,7 +174,7 @@ class TableReader {
                     more_fields_at_, most_fields_, columns_.size()));
   }
 
-  // A line above the numbers.
+  // Remembers a line above the numbers.
   void see_heading(std::string_view line) {
     if (rows_ == 0) heading_ = line;
   }
@@ -185,7 +185,7 @@ class TableReader {
   std::vector<std::vector<double>> take() { return std::move(table_); }
 
  private:
-  // Returns whether it is a line of numbers, by which the separator is known.
+  // Returns whether it is a line of numbers, which determines the separator.
   bool finds_separator(std::string_view line) {
     const auto fits = [&](char separator) { return first_bad(line, separator) == columns_.size(); };
     const auto found = std::find_if(kSeparators.begin(), kSeparators.end(), fits);
@@ -194,7 +194,7 @@ class TableReader {
     return true;
   }
 
-  // Puts the numbers of a line into the row. The first column without one; their number if there is none.
+  // Puts the numbers of a line into the row. Returns the first column that is no number; their count if there is none.
   std::size_t first_bad(std::string_view line, char separator) {
     split_line(line, separator, fields_);
     for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -267,14 +267,14 @@ class TableReader {
   const TableColumns& columns_;
   std::vector<std::vector<double>> table_;
   std::vector<TableNumber> row_;
-  std::vector<double> first_;  // numbers of the first row as they are written
-  std::size_t first_at_ = 0;   // its line
+  std::vector<double> first_;  // numbers of the first row as written
+  std::size_t first_at_ = 0;   // line number of the first row
   std::vector<std::string_view> fields_;
   std::vector<std::string> remarks_;
-  std::string_view heading_;  // the last line above the numbers
+  std::string_view heading_;  // last line above the numbers
   std::size_t rows_ = 0, padding_ = 0;
   std::size_t more_fields_at_ = 0, most_fields_ = 0;  // first line with more fields than columns; 0: none
-  bool points_ = false, commas_ = false;              // decimal marks so far
+  bool points_ = false, commas_ = false;              // decimal marks found so far
   char separator_ = ' ';
 };
 

@@ -12,7 +12,7 @@ namespace afm::curves {
 // Numbers of a plain table in SI, one list for each column; that of a column that is not read is empty.
 struct TableNumbers {
   std::vector<std::vector<double>> columns;
-  std::vector<std::string> remarks;  // headings with other units, a line of counts
+  std::vector<std::string> remarks;  // remarks on headings with other units and on a line of counts
 };
 
 // Throws CurveError, with the line, for anything that is ambiguous: decimal commas between commas, or both decimal

@@ -15,7 +15,7 @@ class Lines {
   explicit Lines(std::string_view text) : rest_(text) {}
 
   bool next(std::string_view& line);
-  std::size_t number() const { return number_; }  // current line, from 1
+  std::size_t number() const { return number_; }  // number of the current line, from 1
   // True if the current line is the last, and has no line end: a file that was cut ends so.
   bool is_open() const { return open_; }
 

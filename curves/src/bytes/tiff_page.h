@@ -17,21 +17,21 @@ namespace afm::curves {
 bool looks_like_tiff(std::string_view bytes);
 
 std::endian tiff_order(std::string_view file);
-std::size_t tiff_first_page(std::string_view file);  // offset
+std::size_t tiff_first_page(std::string_view file);  // offset of the first page
 
-// Refers to the bytes of the file, which must outlive it.
+// One page of a TIFF. Refers to the bytes of the file, which must outlive it.
 class TiffPage {
  public:
   TiffPage(std::string_view file, std::size_t offset, std::endian order);
 
   std::size_t next() const { return next_; }  // offset of the next page in the file; 0: none
 
-  // Empty if the page has no such number.
+  // Number of a tag; empty if the page has none.
   std::optional<double> number(unsigned tag, std::size_t index = 0) const;
 
-  std::size_t count(unsigned tag) const;       // values of a tag
-  std::string text(unsigned tag) const;        // empty if the tag has no text
-  std::string_view bytes(unsigned tag) const;  // value of any type, as in the file; empty without the tag
+  std::size_t count(unsigned tag) const;       // number of values of a tag
+  std::string text(unsigned tag) const;        // text of a tag; empty: none
+  std::string_view bytes(unsigned tag) const;  // value of any type as in the file; empty without the tag
 
  private:
   struct Entry {

@@ -43,7 +43,7 @@ std::size_t number_of_four(std::string_view bytes, std::size_t at) {
   return number_of_two(bytes, at) + 65536U * number_of_two(bytes, at + 2);
 }
 
-// The header that begins there; empty if none does.
+// Header that begins at an offset; empty if none does.
 std::string_view header_at(std::string_view bytes, std::size_t at) {
   if (at > bytes.size() || bytes.size() - at < kHeader || bytes.substr(at, kSignature.size()) != kSignature) return {};
   const std::size_t size =
@@ -51,22 +51,22 @@ std::string_view header_at(std::string_view bytes, std::size_t at) {
   return size <= bytes.size() - at ? bytes.substr(at, size) : std::string_view();
 }
 
-// As minizip's: without what follows a zero or is too long.
+// Name in a header as minizip reads it: up to a zero, and not longer than its limit.
 std::string_view name_in(std::string_view header) {
   const std::string_view name = header.substr(kHeader, std::min(number_of_two(header, 28), kLongestName - 1));
   return name.substr(0, name.find('\0'));
 }
 
-// An entry as its header describes it.
+// Entry as its header describes it.
 struct Packed {
   std::string_view bytes;
-  std::size_t size = 0;  // unpacked
+  std::size_t size = 0;  // unpacked size in bytes
   std::size_t checksum = 0;
   bool deflated = false;
 };
 
-// Empty for an entry that is encrypted, larger than 4 GB, packed by another method than deflation, or contradicted by
-// its local header (APPNOTE 4.3.7).
+// Entry of a header; empty if it is encrypted, larger than 4 GB, not packed by deflation, or contradicted by its local
+// header (APPNOTE 4.3.7).
 std::optional<Packed> packed_entry(std::string_view bytes, std::string_view header) {
   constexpr std::size_t kLocalHeader = 30, kStored = 0, kDeflated = 8, kFarther = 0xffffffff;
   const std::size_t method = number_of_two(header, 10), packed = number_of_four(header, 20);
@@ -86,7 +86,7 @@ std::optional<Packed> packed_entry(std::string_view bytes, std::string_view head
   return Packed{here.substr(begin, packed), found.size, found.checksum, found.deflated};
 }
 
-// The last record, before a comment of at most 64 KiB (APPNOTE 4.3.16).
+// True if the archive ends with its last record, before a comment of at most 64 KiB (APPNOTE 4.3.16).
 bool has_end(std::string_view bytes) {
   constexpr std::size_t kFarthest = 22 + 65535;
   return bytes.substr(bytes.size() - std::min(bytes.size(), kFarthest)).find("PK\x05\x06") != std::string_view::npos;
@@ -162,7 +162,7 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::function<void(std::str
   sort_by_hash();
 }
 
-// By the first bits of their hashes, of which about one entry has the same: the rest of the order would take seconds.
+// Sorts the places by the first bits of their hashes, which about one entry has: the full order would take seconds.
 void ZipArchive::sort_by_hash() {
   constexpr unsigned kHashBits = 64;
   const unsigned bits = std::max(1U, static_cast<unsigned>(std::bit_width(places_.size())));

@@ -31,13 +31,13 @@ class ZipArchive {
 
  private:
   struct Place {
-    std::size_t hash = 0;  // hash of the name
+    std::size_t hash = 0;  // hash of the entry's name
     unz64_file_pos at{};
   };
 
   void sort_by_hash();
 
-  // Empty without it. Looks first where the last one was found, and behind it: a map is read in its order.
+  // Place of an entry; empty if there is none. Looks first near the last one found, because a map is read in order.
   std::optional<Place> find(std::string_view name) const;
 
   std::string unpacked(const Place& place, std::string_view name, std::size_t most_bytes) const;
@@ -49,7 +49,7 @@ class ZipArchive {
   };
   friend struct ZipCallbacks;
 
-  // zlib's state, made once.
+  // State of zlib, created once.
   class Inflater {
    public:
     Inflater() = default;
@@ -67,13 +67,13 @@ class ZipArchive {
 
   std::unique_ptr<Cursor> cursor_;
   std::unique_ptr<void, decltype(&unzClose)> archive_;
-  bool listed_here_ = true;              // false: by minizip, which knows where the headers are
-  std::vector<Place> places_;            // by the first bits of the hash, then as in the archive
-  std::vector<std::uint32_t> begin_of_;  // first place by the first bits of its hash
-  unsigned begin_shift_ = 0;             // bits of a hash that do not count there
+  bool listed_here_ = true;              // false: entries listed by minizip, which knows where the headers are
+  std::vector<Place> places_;            // places by the first bits of the hash, then as in the archive
+  std::vector<std::uint32_t> begin_of_;  // index of the first place for the first bits of a hash
+  unsigned begin_shift_ = 0;             // number of bits of a hash that do not count for begin_of_
   mutable Inflater inflater_;
-  bool in_order_ = false;          // entries may be looked for where the last one was found
-  mutable Place last_{}, next_{};  // place found last, and the one behind it
+  bool in_order_ = false;          // true: search begins where the last entry was found
+  mutable Place last_{}, next_{};  // place found last, and the next one
 };
 
 }  // namespace afm::curves

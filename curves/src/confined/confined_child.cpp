@@ -43,7 +43,7 @@ constexpr std::size_t kMostResultBytes = std::size_t{1} << 30U;
 constexpr int kPipeBytes = 1 << 18;
 
 // Appends what the other end has written, at most `most` bytes; waits for it until `end`.
-enum class Came { Bytes, Nothing, Late };  // Nothing: the other end is closed
+enum class Came { Bytes, Nothing, Late };  // result of a read; Nothing: the other end is closed
 Came append_from(int descriptor, std::size_t most, Clock::time_point end, std::string& bytes) {
   constexpr std::size_t kAtOnce = 65536;
   for (;;) {
@@ -91,7 +91,7 @@ void keep_only(std::initializer_list<int> descriptors) {
   ::syscall(SYS_close_range, first, std::numeric_limits<unsigned>::max(), 0U);
 }
 
-// A child's whole life: what is written to the descriptor goes to the parent.
+// Work of a child: data written to the descriptor go to the parent.
 using ChildWork = std::function<ChildExit(int to_parent)>;
 
 ChildExit work_confined(const std::function<void()>& work, std::chrono::seconds processor_time, int to_parent) {
@@ -126,7 +126,7 @@ Forked forked(const ChildWork& work) {
   if (child < 0) throw std::runtime_error(std::string("cannot start a process: ") + core::system_error(errno));
   if (child == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const bool orphan = ::getppid() != parent;  // the parent died earlier
+    const bool orphan = ::getppid() != parent;  // true: the parent died earlier
     ::_exit(static_cast<int>(orphan ? ChildExit::Failed : work(to_parent.get())));
   }
   return {child, std::move(from_child)};
@@ -208,7 +208,7 @@ class ProgramWork {
   core::FileDescriptor input_;
 };
 
-// Before the text of a message.
+// Head of a message, before its text.
 struct MessageHead {
   std::uint64_t size = 0;
   std::uint64_t fault = 0;

@@ -17,11 +17,11 @@ namespace afm::curves {
 
 // Time limits of a child.
 struct ChildTime {
-  std::chrono::milliseconds patience;  // time for its result, or for each message of a stream
+  std::chrono::milliseconds patience;  // longest wait for a result, or for each message of a stream
   std::chrono::seconds processor_time;
 };
 inline constexpr ChildTime kFileTime{std::chrono::seconds(20), std::chrono::seconds(3)};
-// For a file with up to a million curves; a stream waits for each of them to be used.
+// Limits for a file with up to a million curves; a stream waits until each of them has been used.
 inline constexpr ChildTime kMapTime{std::chrono::minutes(2), std::chrono::minutes(1)},
     kStreamTime{std::chrono::minutes(2), std::chrono::hours(1)};
 
@@ -39,7 +39,7 @@ enum class ChildExit : int { Done = 0, Fault = 1, Failed = 2 };
 std::string in_confined_child(const std::function<std::string()>& work, const std::string& on_death,
                               const ChildTime& time = kFileTime);
 
-// The same with one of our programs, in the running one's folder or in ../bin, which confines itself. Passes `input` on
+// Does so with one of our programs, in the running one's folder or in ../bin, which confines itself. Passes `input` on
 // stdin and returns its stdout. Throws std::runtime_error also if there is no such program.
 std::string from_confined_program(const std::string& name, const std::vector<std::string>& arguments,
                                   std::string_view input, const std::string& on_death,
@@ -54,7 +54,7 @@ struct ChildMessage {
 // Passes a message to the parent. Throws std::runtime_error if it has gone.
 using PutMessage = std::function<void(const ChildMessage&)>;
 
-// For a program that was started for a stream: a message on stdout.
+// Writes a message to stdout, in a program that was started for a stream.
 void put_message(const ChildMessage& message);
 
 // A confined child that continues while its messages are read, with the rules of in_confined_child(). At most 256 KiB
@@ -64,19 +64,19 @@ class ConfinedStream {
   // `on_death` must outlive the object.
   ConfinedStream(const std::function<void(const PutMessage&)>& work, const char* on_death,
                  const ChildTime& time = kStreamTime);
-  // One of our programs, as in from_confined_program(), which writes put_message()s.
+  // Runs one of our programs, as from_confined_program() does, which writes put_message()s.
   ConfinedStream(const std::string& name, const std::vector<std::string>& arguments, std::string_view input,
                  const char* on_death, const ChildTime& time = kStreamTime);
   ConfinedStream(const ConfinedStream&) = delete;
   ConfinedStream& operator=(const ConfinedStream&) = delete;
-  ~ConfinedStream();  // kills the child
+  ~ConfinedStream();  // kills the child if it runs
 
   // The next message; empty at the end of the work. A CurveError that ends the work is a message, too. Throws
   // CurveError if the child died, or is late.
   std::optional<ChildMessage> next();
 
  private:
-  // Bytes that came in are kept until they are asked for. Returns less than `count` at the end, and none too late.
+  // Reads bytes, which are kept until requested. Returns less than `count` at the end, and none too late.
   std::optional<std::string_view> bytes(std::size_t count, std::chrono::steady_clock::time_point end);
 
   const char* on_death_;
@@ -84,7 +84,7 @@ class ConfinedStream {
   pid_t child_ = -1;
   core::FileDescriptor from_child_;
   std::string unread_;
-  std::size_t read_ = 0;  // number of unread_'s bytes that were handed out
+  std::size_t read_ = 0;  // number of bytes of unread_ that were returned
 };
 
 }  // namespace afm::curves

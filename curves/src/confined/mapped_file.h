@@ -7,8 +7,8 @@
 
 namespace afm::curves {
 
-// A file of any size in memory, for a confined child to read: pages come from the disk as they are read. Who touches
-// bytes that another program has cut off meanwhile dies, so that the parent never reads them.
+// A file of any size in memory, for a confined child to read: pages come from the disk as they are read. A process that
+// touches bytes which another program has cut off dies, so the parent never reads them.
 class MappedFile {
  public:
   // Throws CurveError with the reason: a folder, a pipe, an empty file, or one above 16 GiB.
@@ -19,7 +19,7 @@ class MappedFile {
 
   std::string_view bytes() const { return {begin_, size_}; }
 
-  // Gives the pages back that have been read; they come from the disk again.
+  // Returns the pages that have been read to the system; they come from the disk again.
   void forget() const;
 
  private:

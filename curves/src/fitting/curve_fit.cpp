@@ -24,7 +24,7 @@ QuantityDomain domain(const physics::Units& units, double least, double most) {
 
 constexpr double kLeastAngle = std::numbers::pi / 180.0, kMostAngle = std::numbers::pi * 0.49;
 
-// An option that a shape needs, or cannot use.
+// Size that a shape needs, or cannot use.
 struct Size {
   const char* name;
   bool needed, given;

@@ -25,9 +25,9 @@ namespace afm::curves {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastAdhesion = 1e-8;  // J/m2, for a tip that does not stick
-constexpr double kWeakestShare = 1e-3;   // least adhesion of a map, as a share of its strongest
-constexpr double kHardlySticks = 0.02;   // pull, as a share of the push at a depth of a tenth of the tip's radius
+constexpr double kLeastAdhesion = 1e-8;  // adhesion of a tip that does not stick, J/m2
+constexpr double kWeakestShare = 1e-3;   // smallest adhesion of a map, as a share of its largest
+constexpr double kHardlySticks = 0.02;   // faintest pull over the push at a depth of a tenth of the tip's radius
 constexpr int kDigitsOfMap = 3;
 
 // Law with which a fit's numbers are felt; empty: none.
@@ -44,7 +44,7 @@ std::optional<physics::Law> law_of(fits::Shape shape) {
   }
 }
 
-// Values row by row from the top, not a number where there is none.
+// Values row by row from the top, NaN where there is none.
 struct Field {
   std::size_t columns, rows;
   std::vector<double> values;
@@ -52,7 +52,7 @@ struct Field {
   double& at(std::size_t column, std::size_t row) { return values[row * columns + column]; }
 };
 
-// Gives every empty cell the mean of its full neighbours, from the full ones outwards.
+// Fills every empty cell with the mean of its full neighbours, from the full ones outwards.
 void fill(Field& field) {
   for (bool any = true; any;) {
     any = false;
@@ -77,7 +77,7 @@ void fill(Field& field) {
   }
 }
 
-// A grid of square cells over the same area.
+// Grid of square cells over the same area.
 struct Square {
   std::uint32_t columns, rows;
   double spacing_m;

@@ -10,8 +10,8 @@ namespace {
 
 using physics::Branch;
 
-// True if a point is beyond a limit. The depth counts from the contact point of the analysis, not of the fit: that one
-// moves with what is left out, on a sample that stiffens further and further.
+// True if a point is beyond a limit. The depth counts from the contact point of the analysis, because that of the fit
+// moves with the points left out, on a sample that stiffens further and further.
 bool is_beyond(const AnalysedCurve& curve, const physics::CurvePoint& point, const FitOptions& options) {
   const physics::CurveFeatures& features = curve.features;
   const double force_n = (point.force - features.baseline.at(point.z)).si;
@@ -20,7 +20,7 @@ bool is_beyond(const AnalysedCurve& curve, const physics::CurvePoint& point, con
   return force_n > options.most_force_n || depth_m > options.most_depth_m;
 }
 
-// The fit finds level and tilt itself, but has no waves.
+// Force without waves, which the fit does not model; it finds level and tilt itself.
 double without_waves_n(const AnalysedCurve& curve, const physics::CurvePoint& point) {
   const physics::Baseline& baseline = curve.features.baseline;
   return (point.force - baseline.waves.at(point.z - baseline.z_far)).si;
@@ -28,9 +28,9 @@ double without_waves_n(const AnalysedCurve& curve, const physics::CurvePoint& po
 
 // Heights between which a tip may stick or be free.
 struct Doubtful {
-  double approach_sticks_m = -std::numeric_limits<double>::infinity();  // below it the approach surely sticks
+  double approach_sticks_m = -std::numeric_limits<double>::infinity();  // height below which the approach surely sticks
   double retract_sticks_m = -std::numeric_limits<double>::infinity();
-  double approach_free_m = std::numeric_limits<double>::infinity();  // above it the approach is surely free
+  double approach_free_m = std::numeric_limits<double>::infinity();  // height above which the approach is surely free
   double retract_free_m = std::numeric_limits<double>::infinity();
 };
 

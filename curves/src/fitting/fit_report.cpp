@@ -53,7 +53,7 @@ std::string work_text(double j_per_m2) {
   return format_quantity(physics::SurfaceEnergy(j_per_m2), physics::kSurfaceEnergyUnits, kDigits);
 }
 
-// Two lines below the interval of a quantity.
+// Adds two lines below the interval of a quantity.
 void bootstrap_lines(const fits::Interval& interval, std::string (*text)(double si), const Line& line) {
   line("  bootstrap from", text(interval.low));
   line("  to", text(interval.high));

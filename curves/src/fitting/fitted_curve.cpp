@@ -49,9 +49,9 @@ FittedCurve fitted_curve(const std::string& file, core::Result<RecordedCurve> cu
       return result;
     }
     result.fit = std::move(*fit);
-    result.fit->model_n = std::vector<double>();  // frees its memory
+    result.fit->model_n = std::vector<double>();  // memory of the model's forces, not needed any more
     result.spring_n_per_m = analysis->curve.metadata.spring_constant->si;
-  } catch (const std::exception& error) {  // a curve too large for this machine's memory
+  } catch (const std::exception& error) {  // a curve too large for the memory of this machine
     result.fit.reset();
     result.why = fmt::format("cannot fit {}: {}", file, error.what());
   }

@@ -18,7 +18,7 @@ namespace {
 struct ReadingNumber {
   const char* key;
   std::string_view option;
-  double (*get)(const FitOptions& options);  // value; not finite: not given
+  double (*get)(const FitOptions& options);  // getter of the value; not finite: not given
 };
 constexpr std::array kReadingNumbers{
     ReadingNumber{"radius_m", "radius",
@@ -41,7 +41,7 @@ core::Result<MapReading> damaged_reading(const std::string& why) {
   return core::failure(core::ErrorCategory::BadInputFile, "the reading of its force map is damaged: " + why);
 }
 
-// Why the number of a key cannot be used; empty if it can, or is not there.
+// Reason why the number of a key cannot be used; empty if it can, or if the key is missing.
 std::string take_reading_number(const nlohmann::json& members, const ReadingNumber& number, FitOptions& options) {
   const auto found = members.find(number.key);
   if (found == members.end()) return {};

@@ -35,7 +35,7 @@ std::optional<std::size_t> count_of(const std::optional<double>& number, std::si
   return is_count ? std::optional(static_cast<std::size_t>(std::lround(*number))) : std::nullopt;
 }
 
-// Position, and with a whole grid the pixel: by its indexes, or, without them, by the position as in afmformats.
+// Reads the position, and with a complete grid the pixel: by its indexes, or by the position as in afmformats.
 void read_place(const nlohmann::json& from, CurveMetadata& metadata) {
   const auto number = [&from](const char* key) {
     std::optional<double> value;

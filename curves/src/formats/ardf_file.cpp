@@ -33,7 +33,7 @@ std::uint32_t ardf_number(const ArdfSection& section, std::size_t offset) {
   return number_at<std::uint32_t>(section.bytes, offset);
 }
 
-// Metres of a step; 0 if it is no length.
+// Step of a definition in metres; 0 if it is no length.
 double ardf_step_m(const ArdfSection& definition, std::size_t number, std::size_t unit) {
   const ScaledUnit scale = scaled_unit(ardf_text(definition, unit, kArdfWord));
   const double step_m = number_at<double>(definition.bytes, number) * scale.factor;
@@ -61,7 +61,7 @@ void leave_ardf_out(const std::string& segment, std::size_t points, RecordedCurv
 
 }  // namespace
 
-// The floats of a channel, and where each segment begins.
+// Floats of a channel, and the beginning of each segment.
 struct ArdfCurves::Array {
   std::string_view floats;
   std::array<std::uint32_t, kArdfSegments> begins{};
@@ -84,7 +84,7 @@ ArdfCurves::ArdfCurves(std::string_view bytes) : bytes_(bytes) {
   read_volume(*first);
 }
 
-// The first text of the file.
+// Reads the note, the first text of the file.
 void ArdfCurves::read_note(const ArdfTable& contents) {
   const ArdfTable texts = ardf_table(bytes_, contents.end, "TTOC", 32);
   if (texts.entries.empty()) return;
@@ -115,7 +115,7 @@ void ArdfCurves::read_volume(std::uint64_t offset) {
   find_sets(ardf_table(bytes_, experiment.end(), "VTOC", 40));
 }
 
-// Returns the place behind them.
+// Reads the channels. Returns the offset after them.
 std::uint64_t ArdfCurves::read_channels(std::uint64_t offset) {
   while (channels_.size() < kMostArdfChannels) {
     const ArdfSection section = ardf_section(bytes_, offset);
@@ -128,11 +128,11 @@ std::uint64_t ArdfCurves::read_channels(std::uint64_t offset) {
 }
 
 struct ArdfCurves::Walk {
-  std::unordered_set<std::size_t> seen;  // places of the curves in the file
-  std::optional<std::uint32_t> way;      // the pass that is read
+  std::unordered_set<std::size_t> seen;  // offsets of the curves in the file
+  std::optional<std::uint32_t> way;      // pass of the scan that is read
 };
 
-// Each line begins at an entry of the table.
+// Finds the curves; each line begins at an entry of the table.
 void ArdfCurves::find_sets(const ArdfTable& lines) {
   Walk walk;
   for (const ArdfSection& entry : lines.entries) {
@@ -149,7 +149,7 @@ void ArdfCurves::find_sets(const ArdfTable& lines) {
                    [](const Set& a, const Set& b) { return a.line != b.line ? a.line < b.line : a.point < b.point; });
 }
 
-// The curves of a line are a list, which ends with another line or the way back.
+// Finds the curves of a line, a list that ends with another line or the way back.
 void ArdfCurves::find_line(std::uint64_t line, std::uint64_t first, Walk& walk) {
   for (std::uint64_t next = first; next != 0;) {
     const ArdfSection set = ardf_section(bytes_, next);
@@ -175,11 +175,11 @@ bool ArdfCurves::is_cut(const Set& set) const {
   } catch (const CutShort&) {
     return true;
   } catch (const CurveError&) {
-    return false;  // a fault of this curve alone
+    return false;  // fault of this curve only
   }
 }
 
-// Where a file ends early, the curve before its end is not whole.
+// Removes the curve before the end of a file that ends early, because it is not complete.
 void ArdfCurves::leave_out_cut_set() {
   const auto last =
       std::max_element(sets_.begin(), sets_.end(), [](const Set& a, const Set& b) { return a.offset < b.offset; });
@@ -188,7 +188,7 @@ void ArdfCurves::leave_out_cut_set() {
   sets_.erase(last);
 }
 
-// The index of a channel; that behind the last without it.
+// Index of a channel; the number of channels if it is missing.
 std::size_t ArdfCurves::channel(std::string_view name) const {
   const auto found =
       std::find_if(channels_.begin(), channels_.end(), [&](const Channel& each) { return each.name == name; });
@@ -212,7 +212,7 @@ ArdfCurves::Array ArdfCurves::array_of(const Set& set, std::size_t channel) cons
   throw CurveError(fmt::format("this curve of it has no channel {}", core::printable_line(channels_[channel].name)));
 }
 
-// Takes from `reading` what the note lacks.
+// Newtons per unit of the deflection. Uses `reading` for what the note lacks.
 double ArdfCurves::newton_per_unit(const Channel& deflection, const CurveReading& reading,
                                    CurveMetadata& metadata) const {
   const bool volts = deflection.unit == "V";

@@ -34,8 +34,8 @@ class ArdfCurves {
 
  private:
   struct Channel {
-    std::string name, unit;  // SI
-    double factor = 1.0;     // to the unit
+    std::string name, unit;  // name, and SI unit of the values
+    double factor = 1.0;     // factor to the unit
   };
   // Curve of a place of the grid.
   struct Set {
@@ -59,12 +59,12 @@ class ArdfCurves {
   std::string_view bytes_;
   std::string_view note_;
   std::vector<Channel> channels_;
-  std::vector<std::string> segments_;  // their names; fewer than two: the curve turns in the middle
+  std::vector<std::string> segments_;  // names of the segments; fewer than two: the curve turns in the middle
   std::uint64_t columns_ = 0, rows_ = 0;
-  double step_x_m_ = 0, step_y_m_ = 0;  // 0: unknown
+  double step_x_m_ = 0, step_y_m_ = 0;  // distances of points and lines; 0: unknown
   std::size_t volumes_ = 0;
-  std::vector<Set> sets_;  // sets by line and point
-  bool is_cut_ = false;    // others are missing
+  std::vector<Set> sets_;  // curves by line and point
+  bool is_cut_ = false;    // true: the file is cut short, and other curves are missing
 };
 
 }  // namespace afm::curves

@@ -44,7 +44,7 @@ constexpr std::array kColumnRows{
     ColumnRow{ColumnKind::Nothing, "-", ColumnUnits::None}};
 static_assert(core::has_row_for_each(kColumnRows, &ColumnRow::kind));
 
-// SI units in one of this name; empty: not one of the list.
+// SI units in one unit of this name; empty: not in the list.
 std::optional<double> si_per_unit(const physics::Units& list, std::string_view name) {
   const auto found = std::find_if(list.units.begin(), list.units.end(),
                                   [&](const physics::Unit& unit) { return unit.symbol == name; });
@@ -78,14 +78,14 @@ std::size_t count_of(const TableColumns& columns, ColumnKind kind) {
       std::count_if(columns.begin(), columns.end(), [&](const TableColumn& column) { return column.kind == kind; }));
 }
 
-// Empty without one.
+// Index of the column of a kind; empty without one.
 std::optional<std::size_t> place_of(const TableColumns& columns, ColumnKind kind) {
   const auto found =
       std::find_if(columns.begin(), columns.end(), [&](const TableColumn& column) { return column.kind == kind; });
   return found != columns.end() ? std::optional(static_cast<std::size_t>(found - columns.begin())) : std::nullopt;
 }
 
-// Newtons in a unit of a force, or of a deflection with the calibration that was given.
+// Newtons per unit of a force, or of a deflection with the given calibration.
 double newtons_per(const TableColumn& column, const CurveReading& reading) {
   if (column.kind == ColumnKind::Force || column.kind == ColumnKind::RetractForce) return 1.0;
   if (!reading.spring_constant || (column.volts && !reading.sensitivity_m_per_v)) {
@@ -149,7 +149,7 @@ std::optional<std::pair<std::size_t, std::size_t>> rest_at(const std::vector<dou
 
 // Throws if the tip comes near its turn once more: the rows of two curves would be taken for one.
 void check_one_curve(const std::vector<double>& heights, std::size_t turn) {
-  constexpr double kFar = 0.5, kNear = 0.25;  // shares of the way
+  constexpr double kFar = 0.5, kNear = 0.25;  // shares of the whole way
   if (turn == heights.size()) return;
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   const auto way = [&, range = *high - *low](std::size_t row) {
@@ -167,7 +167,7 @@ void check_one_curve(const std::vector<double>& heights, std::size_t turn) {
   }
 }
 
-// 0 on the way to the turn and 1 on the way back, or 1 where the tip rests and 2 on the way back.
+// Segment of each row: 0 on the way to the turn and 1 on the way back, or 1 where the tip rests and 2 on the way back.
 std::vector<double> segments_of(const std::vector<double>& heights) {
   std::vector<double> segments(heights.size(), 0.0);
   const std::size_t turn = turn_of(heights);

@@ -21,13 +21,13 @@ namespace afm::curves {
 // CurveError.
 struct SeriesRow {
   std::size_t (*count)(const std::string& path);
-  // A message a curve, as handed_bytes().
+  // Stream with one message per curve, as of handed_bytes().
   std::unique_ptr<ConfinedStream> (*stream)(const std::string& path, const SeriesPart& part,
                                             const CurveReading& reading);
-  std::string (*write)(std::span<const RecordedCurve> curves);  // null: read only
+  std::string (*write)(std::span<const RecordedCurve> curves);  // writer of a file; null: read only
 };
 
-// The number that a child says; it must not be believed unchecked.
+// Number in a child's message, checked because the child is not trusted.
 inline std::size_t count_in(const std::string& text) {
   constexpr double kMostCurves = 4e6;
   const double count = number_in(text, "count", Lines({}));
@@ -35,7 +35,7 @@ inline std::size_t count_in(const std::string& text) {
   return static_cast<std::size_t>(count);
 }
 
-// For an Archive(std::string_view bytes) with size() and curve(index, reading).
+// Row for an Archive(std::string_view bytes) with size() and curve(index, reading).
 template <class Archive>
 constexpr SeriesRow series_of() {
   return {[](const std::string& path) -> std::size_t {
@@ -47,7 +47,7 @@ constexpr SeriesRow series_of() {
             const MappedFile file(path);
             return std::make_unique<ConfinedStream>(
                 [&](const PutMessage& put) {
-                  constexpr std::size_t kCurvesKept = 256;  // between two returns of memory
+                  constexpr std::size_t kCurvesKept = 256;  // number of curves after which memory is returned
                   const Archive archive(file.bytes());
                   for (std::size_t i = part.first, read = 1; i < archive.size(); i += part.step, ++read) {
                     try {

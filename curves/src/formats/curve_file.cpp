@@ -75,7 +75,7 @@ std::string hdf5_bytes(std::span<const RecordedCurve> curves) {
   return from_confined_program(kHdf5Program, {"write"}, tabs, "HDF5 could not make it", kMapTime);
 }
 
-// A curve of a format whose files may hold several.
+// Reads a curve of a format whose files may hold several.
 template <class Archive>
 RecordedCurve read_one(std::string_view bytes, const CurveReading& reading) {
   const Archive archive(bytes);
@@ -91,19 +91,19 @@ constexpr SeriesRow kHdf5Series{count_hdf5, stream_hdf5, hdf5_bytes},
     kJpkSeries = series_of<JpkArchive>(), kNanoscopeSeries = series_of<NanoscopeCurves>(),
     kNanosurfSeries = series_of<NanosurfCurves>(), kArdfSeries = series_of<ArdfCurves>();
 
-enum class Reader { Ours, Foreign };  // Foreign: formats of other programs, read in a confined child
+enum class Reader { Ours, Foreign };  // origin of a format; Foreign: of other programs, read in a confined child
 
 struct CurveRow {
   CurveFormat format;
-  std::string_view files;   // as listed in kCurveFiles
+  std::string_view files;   // names and endings, as listed in kCurveFiles
   std::string_view word;    // value of --format; empty: read only
-  std::string_view ending;  // ".tab"; empty: read only
+  std::string_view ending;  // file ending, ".tab"; empty: read only
   bool (*begins)(std::string_view bytes);
   Reader reader;
-  const SeriesRow* series;  // null: files hold one curve
+  const SeriesRow* series;  // functions for files with several curves; null: files contain one curve
   RecordedCurve (*read)(std::string_view bytes, const CurveReading& reading);
-  std::string (*write)(const RecordedCurve& curve);  // null: read only
-  bool binary = false;                               // no text for a terminal
+  std::string (*write)(const RecordedCurve& curve);  // writer of a file; null: read only
+  bool binary = false;                               // true: not text, so unsuitable for a terminal
 };
 
 constexpr FormatTable kCurves{
@@ -138,7 +138,7 @@ constexpr FormatTable kCurves{
         CurveRow{CurveFormat::AsylumMap, "Asylum .ardf", "", "",
                  [](std::string_view b) { return b.size() > 12 && b.substr(8, 4) == "ARDF"; }, Reader::Foreign,
                  &kArdfSeries, read_one<ArdfCurves>, nullptr}}};
-// Not known by its content: the user says what it is.
+// Row of a plain table, whose content does not identify it: the user does.
 constexpr CurveRow kColumnTable{CurveFormat{},     "",     "", "", nullptr, Reader::Foreign, nullptr,
                                 read_column_table, nullptr};
 static_assert(core::has_row_for_each(kCurves.rows, &CurveRow::format));
@@ -151,7 +151,7 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
   const auto replace = [&](const auto& given, const auto& own, const char* name) {
     if (!given) return;
     const double ratio = own ? *given / *own : 0.0;
-    const bool known = own && std::isfinite(ratio);  // some programs write 0 for none
+    const bool known = own && std::isfinite(ratio);  // false for 0 as well, which some programs write for none
     if (known) factor *= ratio;
     if (!known) {
       made.remarks.push_back(fmt::format(
@@ -211,7 +211,7 @@ RecordedCurve finished(RecordedCurve curve, const CurveReading& reading) {
   return curve;
 }
 
-// A map may be larger than memory: its bytes are for the confined child alone.
+// True for a map, which may be larger than memory: its bytes are only for the confined child.
 bool is_mapped(const CurveRow& row) { return row.reader == Reader::Foreign && row.series != nullptr; }
 
 RecordedCurve parsed(const CurveRow& row, std::string_view text, const CurveReading& reading) {
@@ -222,13 +222,13 @@ RecordedCurve parsed(const CurveRow& row, std::string_view text, const CurveRead
   return finished(std::move(curve), reading);
 }
 
-// The row of a file that may hold several curves. Null: of any other.
+// Row of a file that may hold several curves; null for any other.
 const CurveRow* row_with_series(const std::string& path, const CurveReading& reading) {
   const CurveRow* const row = reading.columns ? nullptr : kCurves.row_of_file(path);
   return row != nullptr && row->series != nullptr ? row : nullptr;
 }
 
-// Curves of a part of a file, one after the other. A child that dies costs the curve that it was to read.
+// Reader of a part of a file, curve by curve. A child that dies costs the curve that it was to read.
 class PartReader {
  public:
   PartReader(const SeriesRow& series, const std::string& path, const SeriesPart& part, const CurveReading& reading)

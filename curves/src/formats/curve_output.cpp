@@ -42,7 +42,7 @@ const char* name_of(std::optional<EventKind> event) {
   return *event == EventKind::JumpToContact ? "jump_to_contact" : "jump_off_contact";
 }
 
-// Fewest digits that read back as the same number. Three times as fast as fmt, and most of a curve is numbers.
+// Appends the fewest digits that read back as the same number. Three times as fast as fmt; most of a curve is numbers.
 void append_number(std::string& text, double value) {
   std::array<char, 32> digits{};
   // adding zero turns -0 into 0

@@ -22,11 +22,11 @@ inline constexpr const char* kNotSurvived = "it is damaged: its reader could not
 // The whole file. BadInputFile if it is larger than 256 MiB.
 core::Result<std::string> bytes_of_file(const std::string& path);
 
-// Reason for the exception that is being handled, for a person; throws on what is a fault of our own.
+// Reason for the exception that is being handled, for a person; rethrows faults of our own.
 std::string reason_of_failure();
 
-// Runs `read` in a child that can open nothing, whose answer `take_over` makes of the bytes that `hand_over` made of
-// it. `confined` false: here.
+// Runs `read` in a child that can open nothing. `hand_over` converts its result to bytes, and `take_over` converts them
+// back. `confined` false: runs it here.
 template <class Read, class HandOver, class TakeOver>
 auto read_confined(bool confined, const Read& read, const HandOver& hand_over, const TakeOver& take_over,
                    const ChildTime& time = kFileTime) {
@@ -38,20 +38,20 @@ auto read_confined(bool confined, const Read& read, const HandOver& hand_over, c
 // and its `files`, as the table lists them.
 template <class Row, std::size_t Count>
 struct FormatTable {
-  const char* kind;                                           // "curve"
-  std::string_view (*other_kind_of)(std::string_view bytes);  // kind of a file that another table has, or empty
-  const char* files;                                          // all formats, as refusals list them
-  std::size_t longest_beginning;                              // bytes that `begins` needs
-  std::array<Row, Count> rows;  // rows by precedence: a file belongs to the first whose `begins` is true
+  const char* kind;                                           // kind of file, "curve"
+  std::string_view (*other_kind_of)(std::string_view bytes);  // kind of a file of another table, or empty
+  const char* files;                                          // names of all formats, as refusals list them
+  std::size_t longest_beginning;                              // number of bytes that `begins` needs
+  std::array<Row, Count> rows;  // rows by precedence: the first whose `begins` is true applies
 
-  // True if `files` names those of every row.
+  // Returns whether `files` contains the text of every row.
   constexpr bool names_all() const {
     return std::all_of(rows.begin(), rows.end(), [&](const Row& row) {
       return std::string_view(files).find(row.files) != std::string_view::npos;
     });
   }
 
-  // Null: of no known format.
+  // Row for a content; null: no known format.
   constexpr const Row* row_of(std::string_view bytes) const {
     const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) { return row.begins(bytes); });
     return found != rows.end() ? &*found : nullptr;
@@ -71,7 +71,7 @@ struct FormatTable {
     return beginning ? row_of(without_byte_order_mark(*beginning)) : nullptr;
   }
 
-  // The result of `read`, which throws; BadInputFile with the name of the file.
+  // The result of `read`, or BadInputFile with the name of the file for what it throws.
   template <class Read>
   auto named(const std::string& name, const Read& read) const -> core::Result<decltype(read())> {
     try {
@@ -82,7 +82,7 @@ struct FormatTable {
     }
   }
 
-  // The same for a `read` that gets the row of the content and the bytes without a byte order mark.
+  // The result of a `read` that gets the row of the content and the bytes without a byte order mark.
   template <class Read>
   auto parse(std::string_view bytes, const std::string& name, const Read& read) const
       -> core::Result<decltype(read(rows.front(), bytes))> {

@@ -20,7 +20,7 @@ namespace {
 
 using physics::Branch;
 
-// Beginning, which no .tab has. Then follow the counts of points and of their times, the metadata in the order below,
+// First byte, which no .tab has. Then follow the counts of points and of their times, the metadata in the order below,
 // of each point height, force and perhaps time, and the branches of all points, a byte each.
 constexpr char kHanded = '\x01';
 constexpr char kRetracts = '\x01';
@@ -151,7 +151,7 @@ CurveMetadata read_handed_metadata(HandedBytes& from) {
 }  // namespace
 
 std::string handed_bytes(const RecordedCurve& curve) {
-  constexpr std::size_t kMostMetadata = 1024;  // usual ones
+  constexpr std::size_t kMostMetadata = 1024;  // limit of the number of entries
   const bool timed = !curve.time_s.empty();
   HandedOutput to(kMostMetadata + curve.points.size() * ((timed ? 3 : 2) * sizeof(double) + 1));
   to.put_count(curve.points.size());

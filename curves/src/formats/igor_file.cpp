@@ -40,7 +40,7 @@ std::size_t channel(const IgorWave& wave, std::initializer_list<std::string_view
   throw CurveError(fmt::format("it has no channel {}", fmt::join(names, " or ")));
 }
 
-// Empty for NaN and zero, with which Asylum's program marks what was not calibrated.
+// Calibration in a note; empty for NaN and zero, with which Asylum's program marks a missing calibration.
 std::optional<double> calibration_in(std::string_view note, std::string_view key) {
   const auto number = note_number(note, key);
   return number && *number != 0.0 ? number : std::nullopt;
@@ -67,7 +67,7 @@ CurveMetadata asylum_metadata(std::string_view note) {
 
 namespace {
 
-// The deflection's column and the newtons of one of its units: metres, or volts in a wave without metres. Takes from
+// Column of the deflection, and newtons per its unit: metres, or volts in a wave without metres. Takes from
 // `reading` what the note lacks.
 struct DeflectionChannel {
   std::size_t column = 0;
@@ -97,7 +97,7 @@ DeflectionChannel deflection_of(const IgorWave& wave, const CurveReading& readin
   return {channel(wave, {"Defl", "Deflection"}), k_n_per_m};
 }
 
-// The numbers of "Indexes: 0,199,399"; NaN for one that is none.
+// Numbers of "Indexes: 0,199,399"; NaN for anything else among them.
 std::vector<double> numbers_in(std::string_view list) {
   std::vector<std::string_view> fields;
   split(list, ',', fields);
@@ -110,14 +110,14 @@ std::vector<double> numbers_in(std::string_view list) {
   return numbers;
 }
 
-// A section of the curve: the rows up to `end`, and where the tip goes: 1 to the sample, 0 nowhere, -1 away from it.
+// Section of the curve: the rows up to `end`, and the tip's direction: 1 to the sample, 0 at rest, -1 away from it.
 struct Section {
   double direction = 0;
   std::size_t end = 0;
 };
 
-// The sections of the note, each from one of its "Indexes" to the next, whose "Direction" is that of the second. Empty
-// if there are none or they do not fit the wave.
+// Sections of the note, each from one of its "Indexes" to the next, whose "Direction" is that of the second. Empty if
+// there are none or they do not fit the wave.
 std::vector<Section> sections_of(const IgorWave& wave) {
   const std::vector<double> indexes = numbers_in(note_value(wave.note, "Indexes"));
   std::vector<double> directions = numbers_in(note_value(wave.note, "Direction"));
@@ -142,7 +142,7 @@ std::vector<Section> sections_of(const IgorWave& wave) {
   return sections;
 }
 
-// The rows of the turn without a note: the deepest point, or the highest where the heights count the other way.
+// Splits a curve without sections at its deepest point, or the highest if the heights count the other way.
 void turn_at_deepest(RecordedCurve& curve) {
   const auto [lowest, highest] = std::minmax_element(curve.points.begin(), curve.points.end(),
                                                      [](const auto& a, const auto& b) { return a.z < b.z; });
@@ -156,11 +156,11 @@ void turn_at_deepest(RecordedCurve& curve) {
   }
 }
 
-// Splits the points, of which point i is in row rows[i], by the sections of the note, without those where the tip goes
-// nowhere.
+// Splits the points, of which point i is in row rows[i], by the sections of the note, without those in which the tip
+// rests.
 void split_by(const std::vector<Section>& sections, const std::vector<std::size_t>& rows, RecordedCurve& curve) {
   std::vector<physics::CurvePoint> kept;
-  std::size_t before = 0, between = 0, after = 0;  // points of rests
+  std::size_t before = 0, between = 0, after = 0;  // number of points at rest before, between and after the branches
   auto section = sections.begin();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     while (rows[i] >= section->end && section + 1 != sections.end()) ++section;
@@ -189,7 +189,7 @@ RecordedCurve read_igor(std::string_view bytes, const CurveReading& reading) {
   RecordedCurve curve{{}, {}, asylum_metadata(wave.note)};
   const std::size_t height = channel(wave, {"ZSnsr", "ZSensor", "Raw", "Height"});
   const DeflectionChannel deflection = deflection_of(wave, reading, curve.metadata);
-  std::vector<std::size_t> rows;  // rows of the points
+  std::vector<std::size_t> rows;  // row of each point
   for (std::size_t row = 0; row < wave.rows; ++row) {
     const double z = -wave.value(row, height), signal = wave.value(row, deflection.column);
     if (!std::isfinite(z) || !std::isfinite(signal)) continue;

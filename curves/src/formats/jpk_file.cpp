@@ -60,7 +60,7 @@ std::optional<CurvePosition> position_in(const JpkProperties& properties) {
   return std::nullopt;
 }
 
-// Pixel of the curve at `position` in the map's grid. The order of recording does not say it: a map may go back and
+// Pixel of the curve at `position` in the map's grid, whatever the order of recording, in which a map may go back and
 // forth.
 std::optional<MapPixel> pixel_in(const JpkProperties& properties, const CurvePosition& position) {
   for (const char* kind : {"force-scan-map", "quantitative-imaging-map"}) {
@@ -101,7 +101,7 @@ void read_metadata(const JpkSegment& segment, const CurveReading& reading, Curve
   metadata.time = words[1];
 }
 
-// "index/12/segments/0/segment-header.properties" is the beginning of curve 12.
+// Index of the curve that a name begins: "index/12/segments/0/segment-header.properties" begins curve 12.
 std::optional<std::size_t> curve_begun_by(std::string_view name) {
   if (!name.starts_with(kIndexFolder)) return std::nullopt;
   name.remove_prefix(kIndexFolder.size());

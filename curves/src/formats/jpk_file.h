@@ -29,8 +29,8 @@ class JpkArchive {
   RecordedCurve curve(std::size_t index, const CurveReading& reading) const;
 
  private:
-  std::vector<std::size_t> folders_;  // numbers of the curves in the folder "index", rising; a single 0 without one
-  ZipArchive archive_;                // fills folders_
+  std::vector<std::size_t> folders_;  // numbers of the curves in the folder "index", rising; only 0 without that folder
+  ZipArchive archive_;                // archive, whose listing fills folders_
   bool is_map_;
   JpkProperties general_, shared_;
 };

@@ -7,7 +7,7 @@ namespace afm::curves {
 
 namespace {
 
-// Java escapes ':' and '=' with a backslash.
+// Removes the backslashes with which Java escapes ':' and '='.
 std::string unescaped(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {

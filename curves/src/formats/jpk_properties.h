@@ -25,13 +25,13 @@ class JpkProperties {
 
   std::optional<std::string> text(std::string_view key) const;
 
-  // Throws CurveError if it exists but is not a finite number.
+  // Number of a key. Throws CurveError if it exists but is not a finite number.
   std::optional<double> number(std::string_view key) const;
 
  private:
   struct Reference {
-    std::string prefix;  // "channel.height."
-    std::string place;   // "lcd-info.2.", in the shared properties
+    std::string prefix;  // prefix of the referring keys, "channel.height."
+    std::string place;   // place in the shared properties, "lcd-info.2."
   };
 
   std::map<std::string, std::string, std::less<>> values_;

@@ -24,7 +24,7 @@ struct Encoding {
   enum class Sort { Unsigned, Signed, Real } sort;
 };
 
-// Of integers: by the name of their encoder. "signedshort-limited" has values beyond which nothing was recorded.
+// Encoding of integers by their encoder's name. "signedshort-limited" has values beyond which nothing was recorded.
 Encoding encoding_of(std::string_view type) {
   using Sort = Encoding::Sort;
   std::string_view name(type);
@@ -39,14 +39,14 @@ Encoding encoding_of(std::string_view type) {
   throw CurveError(fmt::format("a channel is encoded as \"{}\", which is not understood", type.substr(0, 40)));
 }
 
-// Of numbers that need no encoder, as JPK's own program writes them after a correction: by the type of the data.
+// Encoding of numbers without an encoder, as JPK's program writes them after a correction, by the type of the data.
 std::optional<Encoding> real_of(std::string_view type) {
   if (type == "float-data" || type == "float") return Encoding{4, Encoding::Sort::Real};
   if (type == "double-data" || type == "double") return Encoding{8, Encoding::Sort::Real};
   return std::nullopt;
 }
 
-// Without a file: the same number again and again, or in even steps.
+// True for data without a file: the same number repeated, or even steps.
 bool is_computed(std::string_view type) { return type == "constant-data" || type == "raster-data"; }
 
 double big_endian(std::string_view bytes, Encoding encoding) {

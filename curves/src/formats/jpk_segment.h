@@ -24,7 +24,7 @@ class JpkSegment {
 
   const JpkProperties& properties() const { return properties_; }
 
-  // "extend", "retract", "pause" or another.
+  // Kind of the segment: "extend", "retract", "pause" or another.
   std::string style() const;
 
   // Number of points of the deflection; 0 if it was not recorded.
@@ -57,7 +57,7 @@ class JpkSegment {
   Linear linear_at(const std::string& prefix) const;
   std::string type_of(std::string_view channel) const;
   std::optional<Storage> storage_of(std::string_view channel) const;
-  // Numbers of a channel, mostly volts, before the conversions; those that a rule makes without a file.
+  // Numbers of a channel, mostly volts, before the conversions; computed for a channel that a rule defines.
   std::vector<double> recorded(std::string_view channel) const;
   std::vector<double> computed(std::string_view channel, std::string_view type) const;
   std::string data_file(std::string_view channel) const;

@@ -29,7 +29,7 @@ using NanoscopeBlocks = std::vector<NanoscopeBlock>;
 constexpr std::string_view kForceChannel = "ciao force image list";
 constexpr std::array<std::size_t, 2> kIntegerSizes{2, 4};
 
-// Integers of two bytes may be stored in four.
+// True for integers of two bytes, which may be stored in four.
 bool has_two_bytes(const NanoscopeBlock& channel) {
   const std::string_view* text = channel.find("bytes/pixel");
   return text != nullptr && trimmed(*text) == "2";
@@ -53,7 +53,7 @@ const NanoscopeBlock* channel_named(const std::vector<const NanoscopeBlock*>& ch
   return found != channels.end() ? *found : nullptr;
 }
 
-// The file's calibration, otherwise that of `reading`, which both are written into the metadata.
+// Newtons per volt by the file's calibration, or else by that of `reading`; both are written into the metadata.
 double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& blocks, const CurveReading& reading,
                        CurveMetadata& metadata) {
   const auto scale = hard_scale(deflection.find("@4:z scale"));
@@ -67,7 +67,7 @@ double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& 
   if (!metadata.spring_constant) metadata.spring_constant = reading.spring_constant;
   const bool no_sensitivity = !metadata.sensitivity_m_per_v, no_spring = !metadata.spring_constant;
   if (no_sensitivity || no_spring) {
-    const auto bare = soft_scale(blocks, sensitivity, "V");  // some files leave its unit out
+    const auto bare = soft_scale(blocks, sensitivity, "V");  // sensitivity whose unit some files omit
     const bool has_bare = no_sensitivity && bare && bare->unit.empty() && bare->factor != 1.0;
     throw CurveError(
         fmt::format("its lever is not calibrated; give {}{}{}{}", no_spring ? "--spring-constant" : "",
@@ -77,7 +77,7 @@ double newton_per_volt(const NanoscopeBlock& deflection, const NanoscopeBlocks& 
   return *metadata.sensitivity_m_per_v * metadata.spring_constant->si;
 }
 
-// `held` points of each curve are those of a hold.
+// Metadata of a curve; `held` of its points are those of a hold.
 CurveMetadata nanoscope_metadata(const NanoscopeBlocks& blocks, std::size_t held) {
   CurveMetadata metadata;
   metadata.software = "NanoScope";
@@ -119,7 +119,7 @@ struct NanoscopeCurves::Signal {
     return both;
   }
 
-  // Begins a period of both at one of its points.
+  // Begins a period of both branches at one of its points.
   void begin_at(std::size_t first, double factor = 1.0) {
     std::vector<double> both = period();
     std::rotate(both.begin(), both.begin() + static_cast<std::ptrdiff_t>(first), both.end());
@@ -132,7 +132,7 @@ struct NanoscopeCurves::Signal {
 
 std::size_t NanoscopeCurves::Lengths::longer() const { return std::max(extend, retract); }
 
-// "512 512", or one number for both.
+// Lengths in "512 512", or one number for both branches.
 NanoscopeCurves::Lengths NanoscopeCurves::lengths_of(const NanoscopeBlock& channel) {
   const std::string_view* text = channel.find("samps/line");
   if (text == nullptr) throw CurveError("a channel of it has no \"Samps/line\"");
@@ -149,7 +149,7 @@ NanoscopeCurves::Lengths NanoscopeCurves::lengths_of(const NanoscopeBlock& chann
   return {trimmed(rest).empty() ? retract : length_in(take_number(rest)), retract};
 }
 
-// Points of the hold in each curve, of a channel that has them.
+// Points of the hold in each curve of a channel with a hold.
 std::size_t NanoscopeCurves::hold_of(const std::vector<NanoscopeBlock>& blocks) {
   for (const NanoscopeBlock& block : blocks) {
     if (lower_key(block.name) != kNanoscopeForceList || block.find("hold samples") == nullptr) continue;
@@ -196,7 +196,7 @@ void NanoscopeCurves::read_header() {
   count_whole();
 }
 
-// Curves of a volume whose deflection has `length` bytes.
+// Finds the curves of a volume whose deflection has `length` bytes.
 void NanoscopeCurves::find_curves(const std::vector<const NanoscopeBlock*>& channels, double length) {
   if (is_peakforce_capture(blocks_)) {
     // the second of its lengths may be wrong
@@ -219,7 +219,7 @@ void NanoscopeCurves::find_curves(const std::vector<const NanoscopeBlock*>& chan
   count_ = static_cast<std::size_t>(count);
 }
 
-// The curves whose data the file has in every channel that is read.
+// Counts the curves with complete data in every channel that is read.
 void NanoscopeCurves::count_whole() {
   whole_ = count_;
   for (const NanoscopeBlock* channel : {deflection_, sensor_}) {
@@ -236,7 +236,7 @@ std::string NanoscopeCurves::whole_of_all() const {
   return count_ == 1 ? std::string() : fmt::format("it has {} of its {} curves", whole_, count_);
 }
 
-// Layout of a channel's data; empty if they are no such curves. A hold is in all of its curves, or in none.
+// Layout of a channel's data; empty if it does not contain such curves. Either all of its curves have a hold, or none.
 std::optional<NanoscopeCurves::Layout> NanoscopeCurves::layout_of(const NanoscopeBlock& channel) const {
   const double length = nanoscope_number(channel, "data length");
   std::vector<Layout> found;
@@ -247,7 +247,7 @@ std::optional<NanoscopeCurves::Layout> NanoscopeCurves::layout_of(const Nanoscop
     }
     if (hold_ == 0) break;
   }
-  if (found.size() > 1) {  // twice as many points, or twice as many bytes each
+  if (found.size() > 1) {  // ambiguous: twice as many points, or twice as many bytes each
     const std::size_t size = nanoscope_integers(channel, blocks_).size;
     std::erase_if(found, [&](const Layout& layout) { return layout.size != size; });
   }

@@ -44,8 +44,8 @@ class NanoscopeCurves {
     std::size_t longer() const;
   };
   struct Layout {
-    std::size_t size = 0;    // bytes of an integer
-    std::size_t points = 0;  // points of a curve: both branches, and a hold
+    std::size_t size = 0;    // size of an integer in bytes
+    std::size_t points = 0;  // points of a curve: both branches and a hold
   };
   struct Signal;
 
@@ -64,13 +64,13 @@ class NanoscopeCurves {
   std::string_view bytes_;
   std::vector<NanoscopeBlock> blocks_;
   const NanoscopeBlock* deflection_ = nullptr;
-  const NanoscopeBlock* sensor_ = nullptr;  // height sensor; null: none
+  const NanoscopeBlock* sensor_ = nullptr;  // channel of the height sensor; null: none
   Lengths lengths_;
-  std::size_t hold_ = 0;  // points of a hold, in channels that have it
+  std::size_t hold_ = 0;  // points of a hold, in channels with a hold
   std::optional<NanoscopeVolume> volume_;
-  std::optional<NanoscopeSwing> swing_;  // PeakForce tapping without a channel of the height; empty: other curves
-  bool is_sensed_period_ = false;        // PeakForce tapping with such a channel
-  std::size_t count_ = 1, whole_ = 1;    // whole: the first ones, all unless the file is cut short
+  std::optional<NanoscopeSwing> swing_;  // swing in PeakForce tapping without a height channel; empty: other curves
+  bool is_sensed_period_ = false;        // true: PeakForce tapping with a height channel
+  std::size_t count_ = 1, whole_ = 1;    // number of complete curves, all unless the file is cut short
 };
 
 }  // namespace afm::curves

@@ -21,14 +21,14 @@ using Blocks = std::vector<NanoscopeBlock>;
 constexpr std::uint32_t kFourBytesFrom = 0x09200000;
 constexpr double kSquarePixelTolerance = 0.02;
 
-// Null if there is none.
+// Block of that name; null if there is none.
 const NanoscopeBlock* block_named(const Blocks& blocks, std::string_view name) {
   const auto found = std::find_if(blocks.begin(), blocks.end(),
                                   [&](const NanoscopeBlock& block) { return lower_key(block.name) == name; });
   return found != blocks.end() ? &*found : nullptr;
 }
 
-// "1000 1000 nm", or one number for both.
+// Size in "1000 1000 nm", or one number for both sides.
 std::optional<NanoscopeArea> scan_size(const NanoscopeBlock& block) {
   const std::string_view* text = block.find("scan size");
   if (text == nullptr) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<NanoscopeArea> scan_size(const NanoscopeBlock& block) {
   return NanoscopeArea{*width * unit.factor, height.value_or(*width) * unit.factor};
 }
 
-// "2:1", width to height; 1 without it.
+// Ratio of width to height, as "2:1"; 1 if it is missing.
 double aspect_ratio(const NanoscopeBlock& block) {
   const std::string_view* text = block.find("aspect ratio");
   if (text == nullptr) return 1.0;
@@ -59,7 +59,7 @@ bool has_square_pixels(const NanoscopeArea& area, const NanoscopePoints& points)
   return std::abs(ratio - 1.0) < kSquarePixelTolerance;
 }
 
-// The lines of the scan of which an image has `points`; these if the scan list does not tell, or for other points.
+// Number of lines in the scan of which an image has `points`; those of the image if the scan list has no matching ones.
 double lines_of_scan(const NanoscopeBlock& list, const NanoscopePoints& points) {
   const auto rows = static_cast<double>(points.rows), columns = static_cast<double>(points.columns);
   if (list.find("lines") == nullptr) return rows;
@@ -67,7 +67,7 @@ double lines_of_scan(const NanoscopeBlock& list, const NanoscopePoints& points) 
   return samples == columns ? std::max(rows, nanoscope_number(list, "lines")) : rows;
 }
 
-// A number of curves or points along a side.
+// Number of curves or points along a side.
 std::size_t side_in(const NanoscopeBlock& block, const char* key) {
   const double count = nanoscope_number(block, key);
   if (!(count >= 1.0 && count <= static_cast<double>(kMostMapSide)) || count != std::floor(count)) {
@@ -76,7 +76,7 @@ std::size_t side_in(const NanoscopeBlock& block, const char* key) {
   return static_cast<std::size_t>(count);
 }
 
-// "-250 nm", metres; 0 without it.
+// Offset in metres, as "-250 nm"; 0 if it is missing.
 double offset_m(const NanoscopeBlock& list, const char* key) {
   const std::string_view* text = list.find(key);
   if (text == nullptr) return 0.0;
@@ -91,7 +91,7 @@ bool is_height(const NanoscopeBlock& image) {
   return name.starts_with("height") || name.starts_with("z");
 }
 
-// The image's values in metres, line by line from the bottom.
+// Values of the image in metres, line by line from the bottom.
 std::vector<double> heights_of(std::string_view bytes, const NanoscopeBlock& image, const Blocks& blocks,
                                const NanoscopePoints& points) {
   const NanoscopeScale scale = nanoscope_scale(image, blocks);
@@ -112,7 +112,7 @@ std::vector<double> heights_of(std::string_view bytes, const NanoscopeBlock& ima
   return values;
 }
 
-// Takes the grid of the curves from the header of the image.
+// Reads the grid of the curves from the header of the image.
 void read_grid(std::string_view bytes, const NanoscopeBlock& image, const Blocks& blocks, NanoscopeVolume& volume) {
   const NanoscopePoints points{side_in(image, "samps/line"), side_in(image, "number of lines")};
   volume.points = points;
@@ -199,7 +199,7 @@ double NanoscopeVolume::surface_m(std::size_t curve) const {
 }
 
 std::optional<NanoscopeVolume> nanoscope_volume(std::string_view bytes, const Blocks& blocks) {
-  const NanoscopeBlock* image = nullptr;  // the height, otherwise the first
+  const NanoscopeBlock* image = nullptr;  // height image, or else the first one
   for (const NanoscopeBlock& block : blocks) {
     if (lower_key(block.name) != "ciao image list") continue;
     if (image == nullptr || (!is_height(*image) && is_height(block))) image = &block;

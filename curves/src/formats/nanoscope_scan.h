@@ -31,14 +31,14 @@ NanoscopeArea nanoscope_area(const NanoscopeBlock& image, const std::vector<Nano
                              const NanoscopePoints& points, const TakeRemark& remark);
 
 struct NanoscopeScale {
-  double factor = 1.0;  // per integer divided by its divisor
-  std::string unit;     // SI
+  double factor = 1.0;  // factor per integer over its divisor
+  std::string unit;     // SI unit of the values
 };
 NanoscopeScale nanoscope_scale(const NanoscopeBlock& image, const std::vector<NanoscopeBlock>& blocks);
 
 // Integers of an image or a curve.
 struct NanoscopeIntegers {
-  std::size_t size = 2;    // bytes that one takes in the file: 1, 2 or 4; from version 9.2 on always 4
+  std::size_t size = 2;    // bytes of an integer in the file: 1, 2 or 4; from version 9.2 on always 4
   double divisor = 65536;  // 256^(Bytes/pixel)
 };
 NanoscopeIntegers nanoscope_integers(const NanoscopeBlock& channel, const std::vector<NanoscopeBlock>& blocks);
@@ -48,19 +48,19 @@ double nanoscope_integer(std::string_view data, std::size_t index, std::size_t s
 // Places of the curves of a force volume: in rows from the bottom, like the points of its image, of which a curve
 // may have several.
 struct NanoscopeVolume {
-  std::size_t columns = 0, rows = 0;  // number of curves along a side; 0: the file does not tell
-  std::optional<MapGrid> grid;        // empty: its image cannot be read
-  NanoscopePoints points;             // those of the image
-  std::vector<double> image_m;        // heights of the sample at these points; empty: unknown
-  double turn_deg = 0;                // rotation of the scan
+  std::size_t columns = 0, rows = 0;  // number of curves along a side; 0: not in the file
+  std::optional<MapGrid> grid;        // grid of the volume; empty: its image cannot be read
+  NanoscopePoints points;             // points of the image
+  std::vector<double> image_m;        // heights of the sample at the image's points; empty: unknown
+  double turn_deg = 0;                // rotation of the scan in degrees
   std::vector<std::string> remarks;
-  bool image_is_cut = false;  // the file ends in the image
+  bool image_is_cut = false;  // true: the file ends in the image
 
   // Height of the sample where a curve was taken; 0 if unknown.
   double surface_m(std::size_t curve) const;
 };
 
-// Empty for a file without an image: that of a single ramp.
+// Places of a force volume; empty for a file without an image, which has a single ramp.
 std::optional<NanoscopeVolume> nanoscope_volume(std::string_view bytes, const std::vector<NanoscopeBlock>& blocks);
 
 }  // namespace afm::curves

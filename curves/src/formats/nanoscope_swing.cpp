@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kMostSwingM = 1e-4, kMostSyncPoints = 1e6;
 
-// The text of a key of any block; null if none has it.
+// Text of a key in any block; null if none has it.
 const std::string_view* swing_text(const std::vector<NanoscopeBlock>& blocks, const std::string& key) {
   for (const NanoscopeBlock& block : blocks) {
     if (const std::string_view* text = block.find(key); text != nullptr) return text;
@@ -28,7 +28,7 @@ const std::string_view* swing_text(const std::vector<NanoscopeBlock>& blocks, co
   return nullptr;
 }
 
-// A number from the header of a capture, between these; `unit` gets the text behind it.
+// Number within limits from the header of a capture; `unit` gets the text after it.
 double swing_number(const std::string_view* text, const char* key, double least, double most, std::string_view& unit) {
   if (text == nullptr) throw CurveError(fmt::format("it is a PeakForce capture without \"{}\"", key));
   unit = *text;
@@ -63,7 +63,7 @@ bool is_peakforce_capture(const std::vector<NanoscopeBlock>& blocks) {
 
 SensedPeriod sensed_period(const std::vector<double>& heights, const std::vector<double>& deflections) {
   double sum = 0.0, known = 0.0;
-  std::optional<std::size_t> pushed;  // the point of the greatest deflection
+  std::optional<std::size_t> pushed;  // point of the largest deflection
   for (std::size_t i = 0; i < heights.size(); ++i) {
     if (std::isnan(heights[i])) continue;
     sum += heights[i];

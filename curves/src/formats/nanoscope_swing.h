@@ -14,8 +14,8 @@ namespace afm::curves {
 // read it).
 struct NanoscopeSwing {
   double amplitude_m = 0;
-  double turn = 0;         // time of the deepest point, in captured points; 0 to below `points`
-  std::size_t points = 0;  // captured points of a period; even
+  double turn = 0;         // time of the deepest point, in captured points, from 0 to below `points`
+  std::size_t points = 0;  // captured points of a period, an even number
 
   // The captured point with which the approach begins, half a period before the deepest one.
   std::size_t first() const;
@@ -41,7 +41,7 @@ inline constexpr const char* kSensedPeriod =
 // many.
 SensedPeriod sensed_period(const std::vector<double>& heights, const std::vector<double>& deflections);
 
-// `points` are captured in a period. Throws CurveError if the header lacks a number.
+// Swing in PeakForce tapping; `points` are captured in a period. Throws CurveError if the header lacks a number.
 NanoscopeSwing nanoscope_swing(const std::vector<NanoscopeBlock>& blocks, std::size_t points);
 
 }  // namespace afm::curves

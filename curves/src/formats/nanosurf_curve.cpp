@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view kApproach = "Spec forward", kRetract = "Spec backward", kRest = "Spec fwd pause";
 constexpr std::size_t kMostInfos = 2000;
 
-// "D[48]*[N/m]" in N/m; empty for another unit, and unless positive.
+// Spring constant, as "D[48]*[N/m]", in N/m; empty for another unit, and unless positive.
 std::optional<double> spring_constant_of(const NanosurfFile& file) {
   const NanosurfSection* lever = file.section("DataSet\\Calibration\\Cantilever");
   std::string_view text = lever == nullptr ? std::string_view() : lever->text("Prop0").value_or("");
@@ -62,7 +62,7 @@ std::size_t whole_number(const NanosurfSection& section, std::string_view key) {
 
 std::size_t lines_of(const NanosurfChannel& channel) { return whole_number(*channel.section, "Lines"); }
 
-// A line of a channel, in its unit, without the points that were not recorded.
+// Line of a channel, in its unit, without the points that were not recorded.
 std::vector<double> line_of(const NanosurfChannel& channel, std::size_t line) {
   const std::size_t points = whole_number(*channel.section, "Points");
   const double recorded =
@@ -113,7 +113,7 @@ NanosurfCurves::NanosurfCurves(std::string_view bytes)
   whole_ = whole_curves();
 }
 
-// The curves whose lines the file has in all channels.
+// Number of curves whose lines are complete in all channels.
 std::size_t NanosurfCurves::whole_curves() const {
   std::size_t whole = count_;
   for (const NanosurfChannel* channel : {approach_.force, approach_.height, retract_.force, retract_.height}) {
@@ -136,7 +136,7 @@ NanosurfCurves::Direction NanosurfCurves::direction_of(std::string_view group) c
   return direction.force != nullptr && direction.height != nullptr ? direction : Direction();
 }
 
-// "Map0=x0;x1;y0;y1;columns;rows;rotation;placement", places of the outermost curves in metres.
+// Map of "Map0=x0;x1;y0;y1;columns;rows;rotation;placement", with the places of the outermost curves in metres.
 std::optional<NanosurfCurves::Map> NanosurfCurves::map_of() const {
   constexpr std::size_t kFields = 7;
   const NanosurfSection* table = file_.section("DataSet\\SpecInfos\\SpecMapTable");
@@ -169,7 +169,7 @@ std::optional<NanosurfCurves::Map> NanosurfCurves::map_of() const {
              turn != 0.0};
 }
 
-// The metadata gets the calibration of the file, otherwise that of `reading`, as far as the forces need one.
+// Newtons per unit of the deflection. The metadata gets the calibration of the file, or else of `reading`, if needed.
 double NanosurfCurves::newton_per_unit(const NanosurfSection& force, const CurveReading& reading,
                                        CurveMetadata& metadata) const {
   const ScaledUnit unit = scaled_unit(force.text("Dim2Unit").value_or(""));

@@ -54,7 +54,7 @@ class NanosurfCurves {
 
   NanosurfFile file_;
   Direction approach_, retract_;
-  std::size_t count_ = 0, whole_ = 0;  // whole: the first ones, all unless the file is cut short
+  std::size_t count_ = 0, whole_ = 0;  // number of complete curves, all unless the file is cut short
   std::optional<Map> map_;
 };
 

@@ -21,7 +21,7 @@ using physics::CurvePoint;
 // Share of the heights of a curve up to which the tip counts as resting.
 constexpr double kRestShare = 0.1;
 
-// A run of points with the same number.
+// Run of points with the same number.
 struct Run {
   double number = 0;
   std::size_t first = 0, count = 0;
@@ -57,7 +57,7 @@ double rise_of(std::span<const CurvePoint> points) {
   return (mean_z(points.last(tenth)) - mean_z(points.first(tenth))) / (high - low);
 }
 
-// Forces where the height is within `from` to `to`, in shares of the range from its lowest.
+// Forces at heights within `from` to `to`, in shares of the range from its lowest.
 std::vector<double> forces_at(std::span<const CurvePoint> points, double from, double to) {
   const auto [low, high] = z_range_of(points);
   std::vector<double> forces;
@@ -68,19 +68,19 @@ std::vector<double> forces_at(std::span<const CurvePoint> points, double from, d
   return forces;
 }
 
-// Of at least one value, whose order changes.
+// Median of at least one value; changes their order.
 double median_in(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-// An end of the heights: how far its force is from that a fifth of them away, and the noise there.
+// End of the heights: difference of its force from that a fifth of them away, and the noise there.
 struct HeightsEnd {
   double change_n = 0, noise_n = 0;
 };
 
-// The largest change of three widths of the end, because a contact may be a hundredth of a long approach.
+// Largest change in three widths of the end, because a contact may be a hundredth of a long approach.
 std::optional<HeightsEnd> end_of_heights(std::span<const CurvePoint> points, bool highest) {
   constexpr double kOuter = 0.05, kInner = 0.2, kDeviationPerMedian = 1.4826;
   constexpr std::array kNarrower{0.02, 0.005};
@@ -103,12 +103,12 @@ std::optional<HeightsEnd> end_of_heights(std::span<const CurvePoint> points, boo
 
 enum class ContactEnd { Unknown, Lowest, Highest };
 
-// The end of the heights at which the force changes most, if clearly: that of the contact, for a force of either sign.
+// End of the heights with the largest change of the force, if clear: that of the contact, for a force of either sign.
 ContactEnd contact_end_of(std::span<const CurvePoint> points) {
   constexpr double kClearly = 3.0, kSignificant = 5.0;
   const auto lowest = end_of_heights(points, false), highest = end_of_heights(points, true);
   if (!lowest || !highest) return ContactEnd::Unknown;
-  const double noise_n = std::max(lowest->noise_n, highest->noise_n);  // none where a detector has ended
+  const double noise_n = std::max(lowest->noise_n, highest->noise_n);  // 0 where the signal is constant
   const auto is_clear = [&](const HeightsEnd& end, const HeightsEnd& other) {
     return end.change_n > kClearly * other.change_n && end.change_n > kSignificant * noise_n;
   };

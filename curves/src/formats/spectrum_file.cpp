@@ -19,7 +19,7 @@ namespace afm::curves {
 
 namespace {
 
-// In UTF-8 and, for the micro sign and the square, Latin-1, as programs of Windows write them.
+// Unit in UTF-8 and, for the micro sign and the square, Latin-1, as programs of Windows write them.
 struct SignalUnit {
   std::string_view symbol;
   double si;
@@ -32,7 +32,7 @@ constexpr std::array kSignalUnits{
     SignalUnit{"\u03bcm", 1e-6, false}, SignalUnit{"\xb5m", 1e-6, false},  SignalUnit{"nm", 1e-9, false},
     SignalUnit{"pm", 1e-12, false},     SignalUnit{"fm", 1e-15, false}};
 
-// Text behind the signal's unit.
+// Text after the signal's unit.
 struct DensityForm {
   std::string_view text;
   bool amplitude;
@@ -60,7 +60,7 @@ struct ColumnUnits {
   bool operator==(const ColumnUnits&) const = default;
 };
 
-// Letters, digits and what is not ASCII: the micro sign before "m".
+// True for letters, digits and bytes beyond ASCII: the micro sign before "m".
 bool is_part_of_word(char c) {
   const auto byte = static_cast<unsigned char>(c);
   return byte >= 0x80 || std::isalnum(byte) != 0;

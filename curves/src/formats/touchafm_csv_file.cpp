@@ -11,7 +11,7 @@ namespace afm::curves {
 
 namespace {
 
-// The number of samples is 0 in files of 0.1.0.
+// Reads a comment. The number of samples is 0 in files of 0.1.0.
 void read_comment(std::string_view line, const Lines& lines, CurveMetadata& metadata, double& samples) {
   constexpr std::string_view kSamplesLine = "# samples: ";
   constexpr std::string_view kSpringConstantLine = "# spring_constant_N_per_m: ", kMaterialLine = "# material: ",
@@ -59,7 +59,7 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
     split(line, ',', fields);
     if (fields.size() != names.size()) refuse_fields(lines, fields.size(), names.size());
     fields[branch] = trimmed(fields[branch]);
-    if (fields[branch].empty()) continue;  // a session's way to the cycle, or back
+    if (fields[branch].empty()) continue;  // row outside of the cycle in a session
     if (fields[branch] != "approach" && fields[branch] != "retract") {
       if (lines.is_open()) throw CutShort("its last line is not whole");
       throw CurveError(fmt::format("line {}: branch is \"{}\", neither approach nor retract", lines.number(),

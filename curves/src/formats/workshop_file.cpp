@@ -165,7 +165,7 @@ Header read_header(Lines& lines) {
   throw CurveError(fmt::format("it has no line of column names, one of which is \"{}\"", kFirstColumn));
 }
 
-// One of the two branches of the table.
+// Columns of one of the two branches of the table.
 struct Columns {
   std::size_t height;
   std::size_t signal;

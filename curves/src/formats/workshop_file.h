@@ -13,7 +13,7 @@ namespace afm::curves {
 // nN or, uncalibrated, in volts. Gwyddion assumes evenly spaced heights and equally long branches.
 std::string workshop_bytes(const RecordedCurve& curve);
 
-// Throws CurveError. Volts need sensitivity and spring constant from the file or from `reading`.
+// Reads such a file. Throws CurveError. Volts need sensitivity and spring constant from the file or from `reading`.
 RecordedCurve read_workshop(std::string_view bytes, const CurveReading& reading);
 
 }  // namespace afm::curves

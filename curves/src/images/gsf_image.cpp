@@ -20,8 +20,8 @@ constexpr std::size_t kMostGsfHeaderBytes = std::size_t{1} << 20U;
 
 struct GsfHeader {
   double columns = 0, rows = 0;
-  std::optional<double> width, height;  // in xy_unit
-  double x_offset = 0, y_offset = 0;    // the same
+  std::optional<double> width, height;  // size in xy_unit
+  double x_offset = 0, y_offset = 0;    // offsets in xy_unit
   ScaledUnit xy_unit, z_unit;
   std::string title = "Height";
 };
@@ -60,7 +60,7 @@ ImagePages read_gsf(std::string_view bytes) {
   ImagePages found;
   std::string_view line;
   Lines lines(bytes.substr(0, end));
-  lines.next(line);  // skips the magic
+  lines.next(line);  // the line with the magic word
   while (lines.next(line)) {
     const std::size_t equals = line.find('=');
     if (trimmed(line).empty()) continue;
@@ -80,7 +80,7 @@ ImagePages read_gsf(std::string_view bytes) {
   const std::string_view numbers = part(bytes, data, columns * rows * sizeof(float));
   if (data + numbers.size() != bytes.size()) throw CurveError("it is longer than its XRes and YRes say");
   found.remark_if_without(header.xy_unit);
-  constexpr double kUnknownSide = 1.0;  // the format's rule
+  constexpr double kUnknownSide = 1.0;  // default of the format
   if (!header.width || !header.height) {
     found.remark(fmt::format("it does not name {}, which is taken as {:g} m: set its size in the program that wrote it",
                              header.width    ? "its height (YReal)"

@@ -50,8 +50,8 @@ class GwyReader {
 
 struct Component {
   char type = 0;
-  std::string_view payload;  // a string without its NUL, or an object's components
-  std::string_view object;   // type name of an object
+  std::string_view payload;  // string without its NUL, or components of an object
+  std::string_view object;   // name of an object's type
 };
 
 using Components = std::map<std::string_view, Component>;
@@ -159,7 +159,7 @@ ImagePage gwy_page(std::string_view field, std::string name, ImagePages& found) 
           }};
 }
 
-// The N of "/N/data", or empty.
+// Text N of a name "/N/data", or empty.
 std::string_view index_in(std::string_view name) {
   constexpr std::string_view kEnd = "/data";
   if (!name.starts_with('/') || !name.ends_with(kEnd)) return {};

@@ -8,7 +8,7 @@
 namespace afm::curves {
 
 inline constexpr std::string_view kGwyMagic = "GWYP";
-inline constexpr std::string_view kOldGwyMagic = "GWYO";  // Gwyddion 1's other layout: recognised, not read
+inline constexpr std::string_view kOldGwyMagic = "GWYO";  // magic of Gwyddion 1's layout: recognised, not read
 
 // Gwyddion's native format (Gwyddion user guide, "Gwyddion native format"): a container of objects. Its data fields
 // "/N/data" are the channels, with "/N/data/title" and the strings of "/N/meta". Ignores masks, which are marks of a

@@ -133,7 +133,7 @@ std::optional<ImageFormat> image_format(std::string_view path) {
 
 std::string gwy_bytes(const ScanImage& image) {
   check(image);
-  std::size_t words = 1000;  // plus names, types and units
+  std::size_t words = 1000;  // size of names, types and units, plus some
   for (const auto& [key, value] : image.metadata) words += key.size() + value.size() + 3;
   GwyWriter file(image.channels.size() * (image.columns * image.rows * sizeof(double) + words));
   file.contents("GwyContainer", [&] {

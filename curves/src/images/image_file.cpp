@@ -40,11 +40,11 @@ constexpr std::size_t kMostTextBytes = 4096;  // limit for a name, a key or a va
 struct FormatRow {
   ImageFormat format;
   std::string_view name;
-  std::string_view files;  // as kImageFiles lists them
+  std::string_view files;  // names and endings, as listed in kImageFiles
   bool (*begins)(std::string_view bytes);
   ImagePages (*read)(std::string_view bytes);
   std::string (*convert)(std::string_view bytes) =
-      nullptr;  // produces the input of `read` in a confined program; null: none
+      nullptr;  // converter that runs in a confined program before `read`; null: none
 };
 
 constexpr FormatTable kImages{
@@ -146,14 +146,14 @@ std::size_t chosen_page(const ImagePages& image, const std::string& wanted) {
 // False for NaN and infinity.
 bool is_measured(double value) { return std::abs(value) <= physics::kMostImageValue; }
 
-// Higher than any microscope measures: numbers of another byte order or unit.
+// True for a height that no microscope measures: numbers of another byte order or unit.
 bool is_impossible_height(double value_m) { return is_measured(value_m) && std::abs(value_m) > kLongestSideM; }
 
 bool same_grid(const ImagePage& a, const ImagePage& b) {
   return a.columns == b.columns && a.rows == b.rows && a.width_m == b.width_m && a.height_m == b.height_m;
 }
 
-// The channel's values, those that no instrument measures as NaN.
+// Values of a channel, with NaN for those that no instrument measures.
 std::vector<double> values_of(const ImagePage& page) {
   std::vector<double> values = page.values();
   std::replace_if(

@@ -18,28 +18,28 @@ namespace afm::curves {
 // One channel of an image file, checked by its reader, with the numbers still unread.
 struct ImagePage {
   std::string name;
-  std::string unit;  // SI, see physics::ImageChannel
+  std::string unit;  // SI unit, see physics::ImageChannel
   std::size_t columns = 0;
   std::size_t rows = 0;
   double width_m = 0;
   double height_m = 0;
   double x_offset_m = 0;
   double y_offset_m = 0;
-  std::function<std::vector<double>()> values;  // row 0 at the top; refers to the file's bytes, which must outlive it
+  std::function<std::vector<double>()> values;  // values from the top row on; refers to the file's bytes
 };
 
 struct ImagePages {
   std::vector<ImagePage> pages;
   std::vector<std::pair<std::string, std::string>> metadata;
   std::vector<UnreadChannel> unread;
-  std::vector<std::string> remarks;  // each once
+  std::vector<std::string> remarks;  // remarks without repetition
 
   void remark(const std::string& sentence) {
     constexpr std::size_t kMostImageRemarks = 64;
     const bool known = std::find(remarks.begin(), remarks.end(), sentence) != remarks.end();
     if (!known && remarks.size() < kMostImageRemarks) remarks.push_back(sentence);
   }
-  // For a side whose unit the file does not name.
+  // Adds a remark for a side whose unit the file does not name.
   void remark_if_without(const ScaledUnit& side) {
     if (side.unit.empty()) remark("it does not name the unit of its sides, which are taken as metres");
   }

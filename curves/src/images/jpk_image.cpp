@@ -92,7 +92,7 @@ bool is_channel(const TiffPage& page) {
   return page.number(kPhotometric) == kBlackIsZero && (bits == 16 || bits == 32) && page.count(kBits) == 1;
 }
 
-// "height", "height (retrace)".
+// Name of a channel: "height", "height (retrace)".
 std::string name_of_channel(const TiffPage& page) {
   std::string name = page.text(kChannelTitle);
   if (name.empty()) name = page.text(kChannel);

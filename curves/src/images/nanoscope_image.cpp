@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kImageBlock = "Ciao image list";
 
-// "S [Height] \"Height Sensor\"" becomes Height Sensor; a retrace is marked.
+// Name of a channel: Height Sensor of "S [Height] \"Height Sensor\""; a retrace is marked.
 std::string nanoscope_name(const NanoscopeBlock& image) {
   std::string name = "Image";
   if (const std::string_view* data = image.find("@2:image data")) {
@@ -31,7 +31,7 @@ std::string nanoscope_name(const NanoscopeBlock& image) {
   return direction != nullptr && *direction == "Retrace" ? name + " (retrace)" : name;
 }
 
-// The lines that have data, in the order of the file.
+// Lines with data, in the order of the file.
 struct Captured {
   std::size_t first = 0, count = 0;
 };
@@ -47,7 +47,7 @@ Captured captured_lines(const NanoscopeBlock& image, const NanoscopePoints& poin
   return {static_cast<std::size_t>(first), static_cast<std::size_t>(count)};
 }
 
-// The bytes of the captured lines, which a file may have alone.
+// Bytes of the captured lines; a file may contain only these.
 std::string_view data_of(std::string_view bytes, const NanoscopeBlock& image, const NanoscopePoints& points,
                          std::size_t number_size, const Captured& captured) {
   const double length = nanoscope_number(image, "data length");

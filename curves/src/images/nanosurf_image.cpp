@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view kForward = "Scan forward", kBackward = "Scan backward", kSpectroscopy = "Spec";
 
-// "Z-Axis", "Z-Axis (retrace)"; another frame by its name.
+// Name of a channel, "Z-Axis" or "Z-Axis (retrace)"; another frame by its name.
 std::string name_of_channel(const NanosurfSection& channel, std::string_view group) {
   std::string name(channel.text("Dim2Name").value_or("unnamed"));
   const std::string_view frame = channel.text("Frame").value_or(group);
@@ -23,7 +23,7 @@ std::string name_of_channel(const NanosurfSection& channel, std::string_view gro
   return fmt::format("{} ({})", name, frame == kBackward ? "retrace" : frame);
 }
 
-// Lines that hold one number alone, behind the last one that a stopped scan has reached, in whichever direction.
+// Removes lines of one repeated number after the last line that a stopped scan has reached, in whichever direction.
 void remove_lines_not_reached(std::vector<double>& values, std::size_t columns) {
   for (auto line = values.begin(); line != values.end(); line += static_cast<std::ptrdiff_t>(columns)) {
     const auto end = line + static_cast<std::ptrdiff_t>(columns);

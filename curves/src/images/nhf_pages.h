@@ -8,7 +8,7 @@
 
 namespace afm::curves {
 
-// Metadata of a converted image with the reason why a channel is missing.
+// Prefix of a converted image's metadata with the reason why a channel is missing.
 inline constexpr std::string_view kUnreadPrefix = "Not read: ";
 
 // Returns whether a file is HDF5 of Nanosurf Studio (.nhf), whose root has the version of the format.

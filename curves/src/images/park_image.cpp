@@ -40,10 +40,10 @@ enum At : std::size_t {
   kUnitAt = 244,
   kNumberTypeAt = 348
 };
-constexpr std::size_t kSourceLength = 32, kShortLength = 8;  // characters of two bytes
+constexpr std::size_t kSourceLength = 32, kShortLength = 8;  // lengths in characters of two bytes
 enum class Kind : std::uint32_t { Image, LineProfile, Spectroscopy };
 
-// The text of `length` characters of UTF-16, as UTF-8; what lies beyond its first plane becomes "?".
+// Text of `length` characters of UTF-16 as UTF-8; characters beyond its first plane become "?".
 std::string text_at(std::string_view header, std::size_t at, std::size_t length) {
   std::string text;
   for (std::size_t i = 0; i < length; ++i) {

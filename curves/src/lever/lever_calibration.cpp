@@ -25,15 +25,15 @@ using core::wrong_usage;
 
 constexpr double kRoomTemperature_k = 298.15;
 
-// (L2) k_B T/(s^2 A), s the sensitivity, 1 for a spectrum in metres.
+// Spring constant (L2) k_B T/(s^2 A), s the sensitivity, 1 for a spectrum in metres.
 double uncorrected_k(const LeverInputs& in) {
   const double energy_j = physics::thermal_energy(physics::Temperature(*in[LeverInput::Temperature])).si;
   const double sensitivity = in[LeverInput::Sensitivity].value_or(1.0);
   return energy_j / (sensitivity * sensitivity * *in[LeverInput::Area]);
 }
 
-// (L3) The mode's factor times (L2). A contact of stiffness c makes the sensitivity come out too large by 1 + k/c (L4),
-// so that k = k' (1 + k/c)^2 for the k' of the measured sensitivity; NaN if c is below 4 k'.
+// Spring constant (L3), the mode's factor times (L2). A contact of stiffness c makes the sensitivity larger by 1 + k/c
+// (L4), so that k = k' (1 + k/c)^2 for the k' of the measured sensitivity; NaN if c is below 4 k'.
 double thermal_k(const LeverInputs& in) {
   const double k = *in[LeverInput::ModeFactor] * uncorrected_k(in);
   if (!in[LeverInput::ContactStiffness]) return k;
@@ -49,7 +49,7 @@ double sader_k(const LeverInputs& in) {
       .si;
 }
 
-// (L6) Sader and others, Rev. Sci. Instrum. 87, 093711 (2016).
+// Spring constant (L6), Sader and others, Rev. Sci. Instrum. 87, 093711 (2016).
 double gci_k(const LeverInputs& in) {
   return *in[LeverInput::GciCoefficient] * *in[LeverInput::QualityFactor] * std::pow(*in[LeverInput::Resonance], 1.3);
 }
@@ -109,11 +109,11 @@ core::Result<void> fit_spectrum(const LeverOptions& options, LeverCalibration& r
   return {};
 }
 
-// Calibration with which a curve is read whose deflections are in volts; it cancels.
+// Calibration used for reading a curve with deflections in volts; it cancels.
 constexpr physics::Stiffness kAnyStiffness(1.0);
 constexpr double kAnySensitivity = 1e-7;
 
-// The sensitivity with which the contact slope is that of a rigid sample.
+// Sensitivity with which the contact slope is that of a rigid sample.
 core::Result<double> sensitivity_of(const std::string& file, CurveReading reading) {
   const auto refused = [&](const char* why) {
     return core::failure(core::ErrorCategory::BadInputFile,
@@ -237,7 +237,7 @@ void find_sensitivity(LeverCalibration& result) {
   }
 }
 
-// An option, what it acts on, and whether that is there.
+// Option, the result on which it acts, and whether that is present.
 struct Acting {
   std::string_view option;
   bool is_given, acts;
@@ -274,7 +274,7 @@ core::Result<void> check_acting(const LeverOptions& options, const LeverCalibrat
   return {};
 }
 
-// WrongUsage for an uncertainty without a share in any constant.
+// WrongUsage for an uncertainty without effect on any constant.
 core::Result<void> check_shares(const LeverOptions& options, const LeverCalibration& result) {
   for (std::size_t i = 0; i < options.uncertainties.size(); ++i) {
     const auto has = [i](const CalibratedConstant& constant) { return constant.shares[i] > 0.0; };

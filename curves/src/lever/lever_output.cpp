@@ -49,7 +49,7 @@ class LeverLines {
   fmt::memory_buffer text_;
 };
 
-// A constant with its uncertainty, and that along the sample's normal.
+// Adds lines on a constant with its uncertainty, and on the constant along the sample's normal.
 void constant_lines(const LeverOptions& options, const LeverInputs& in, const CalibratedConstant& constant,
                     LeverLines& lines) {
   if (!options.uncertainties.empty())

@@ -141,7 +141,7 @@ json island_json(const physics::TapIsland& island) {
   return result;
 }
 
-// The distance between the jumps, if there is one in each direction.
+// Distance between the jumps, if there is one in each direction.
 json width_json(const std::vector<physics::TapJump>& jumps) {
   if (jumps.size() != 2 || jumps[0].branch == jumps[1].branch) return nullptr;
   return jumps[1].z.si - jumps[0].z.si;

@@ -32,7 +32,7 @@ core::Result<Q> read_quantity(const char* option, const std::string& text, const
   return *parsed.value;
 }
 
-// The quantity, or the default if the text is empty.
+// Quantity in a text, or the default if the text is empty.
 template <class Q>
 core::Result<Q> read_quantity_or(const char* option, const std::string& text, const physics::UnitList<Q>& units,
                                  Q fallback) {
@@ -70,8 +70,8 @@ core::Result<physics::TapMethod> read_method(const std::string& text, const phys
                                  physics::AveragedFlow::kLeastQuality, lever.quality_factor));
 }
 
-// Both starts by direct integration, or all states of the averaged flow; `complete`: and those that only direct
-// integration has.
+// States from both starts by direct integration, or all states of the averaged flow; `complete`: plus those that only
+// direct integration finds.
 std::vector<TapStateRow> states_at(const std::shared_ptr<const physics::TapSurface>& surface,
                                    const physics::DrivenLever& lever, physics::TapMethod method, bool complete,
                                    physics::Length z) {
@@ -114,12 +114,12 @@ core::Result<physics::DrivenLever> read_lever(const ContactSetup& setup, const T
   return physics::driven_lever(contact.spring_constant, lever, {*amplitude, *drive});
 }
 
-// A curve that its watch has ended.
+// Curve that its watch has ended.
 struct EndedTapping {
   std::size_t done, all;
 };
 
-// Logged once a second, of a curve that takes longer.
+// Callback that logs progress once a second for a curve that takes longer.
 physics::TapProgress watched_progress(const TapWatch& watch) {
   return [&watch, told = std::chrono::steady_clock::now()](std::size_t done, std::size_t all) mutable {
     if (watch && !watch(done, all)) throw EndedTapping{done, all};
@@ -199,7 +199,7 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
   return {};
 }
 
-// Steps common to both modes: model, checks and the viscosity; then the mode's computation.
+// Computes both modes' common steps: model, checks and the viscosity; then the mode's own.
 template <class Run>
 core::Result<Run> computed(const ContactSetup& setup, const PathOptions& path, const TappingOptions& options,
                            const TapWatch& watch = {}) {
@@ -230,7 +230,7 @@ UsualTapPath usual_tap_path(physics::Length free_amplitude) {
 
 core::Result<physics::SurfaceEnergy> work_of_adhesion_for(const ContactSetup& setup, physics::Length contact_gap) {
   const physics::ContactParameters& contact = setup.material.contact;
-  // the range of an atomic distance, downwards to where no sphere is smaller
+  // range of an atomic distance, down to where no sphere is smaller
   if (!(contact_gap >= physics::Length(1e-11) && contact_gap <= physics::Length(5e-9))) {
     return wrong_usage(fmt::format("--contact-gap: {} is not within 10 pm to 5 nm",
                                    physics::format_quantity(contact_gap, physics::kLengthUnits)));

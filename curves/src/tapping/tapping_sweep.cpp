@@ -67,7 +67,7 @@ core::Result<std::pair<ContactSetup, TappingOptions>> at_point(const TappingSwee
   return point;
 }
 
-// The states at a height.
+// Sets the states at a height.
 void take_states(const TappingRun& run, TapSweepRow& row) {
   constexpr std::size_t kAttractive = 0, kRepulsive = 1;
   std::array<const physics::RestingTap*, 2> states{};
@@ -90,7 +90,7 @@ void take_states(const TappingRun& run, TapSweepRow& row) {
   row.regime = kRegimesAtHeight.at(regime).word;
 }
 
-// The curve down and up.
+// Sets the results of the curve down and up.
 void take_curve(const TappingRun& run, TapSweepRow& row) {
   const physics::TapJump *in = nullptr, *off = nullptr;
   for (const physics::TapJump& jump : run.curve.jumps) {
@@ -110,7 +110,7 @@ void take_curve(const TappingRun& run, TapSweepRow& row) {
   // the phase of the free lever, with the error of a swing at rest
   const double free = run.lever.free_phase;
   const auto passes = [&](double sign) {
-    constexpr double kClearly = 0.02;  // rad
+    constexpr double kClearly = 0.02;  // smallest clear difference of phases, rad
     return std::any_of(run.curve.points.begin(), run.curve.points.end(),
                        [&](const physics::TapPoint& point) { return sign * (point.state.phase - free) > kClearly; });
   };

@@ -23,7 +23,7 @@ bool is_swept(const TappingSweep& sweep, std::string_view option) {
                      [&](const SweepAxis& axis) { return axis.parameter->option == option; });
 }
 
-// A length is drawn in nm, everything else in SI.
+// Value for drawing: a length in nm, everything else in SI.
 double drawn(const SweepAxis& axis, double si) {
   return axis.parameter->sort == physics::kLengthUnits.sort ? si * kNmPerM : si;
 }
@@ -40,7 +40,7 @@ std::string title_of(const TappingSweep& sweep) {
                      sweep.setup.material.medium, sweep.setup.used_model());
 }
 
-// Two axes: dots, with the regimes as empty lines of the legend.
+// Adds the dots of two axes, with the regimes as empty lines of the legend.
 void add_dots(const TappingSweep& sweep, SvgPlot& plot) {
   const auto regimes = regimes_of(sweep);
   for (std::size_t i = 0; i < regimes.size(); ++i) {
@@ -60,7 +60,7 @@ void add_dots(const TappingSweep& sweep, SvgPlot& plot) {
   }
 }
 
-// One axis: both values of a kind that a point may have.
+// Adds the lines of one axis: both values of a kind that a point may have.
 void add_lines(const TappingSweep& sweep, SvgPlot& plot) {
   const auto columns = columns_of(sweep);
   const auto add = [&](std::string_view column, const char* label, std::size_t color) {

@@ -21,9 +21,9 @@ class DrivenContact {
   DrivenContact& operator=(DrivenContact&&) = delete;
 
   struct State {
-    double depth_m = 0, force_n = 0;  // depth of the tip; force of the lever, a pull is negative
+    double depth_m = 0, force_n = 0;  // depth of the tip; force of the lever, negative for a pull
   };
-  // Fastest if the way is near that of the previous call.
+  // State of the lever at a way of the base. Fastest if the way is near that of the previous call.
   State approaching(double way_m) { return way_m > 0.0 ? touching(way_m) : State{}; }
   State retracting(double way_m) { return way_m > way_off_m() ? touching(way_m) : State{}; }
 

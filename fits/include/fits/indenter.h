@@ -26,37 +26,37 @@ enum class Shape {
   Dmt,
   Jkr,
   Maugis,
-  Auto  // one of the three before
+  Auto  // Dmt, Jkr or Maugis, selected by the fit
 };
 
 // Description of a shape for options, reports and checks.
 struct ShapeRow {
   Shape shape;
-  std::string_view name;     // on the command line and in reports
-  bool has_radius;           // false: a half angle
-  bool has_layer;            // a thickness
-  bool is_exact;             // a layer of any Poisson ratio, on any base; the others have 0.5, bonded
-  bool is_adhesive;          // a law of adhesion, fitted to both branches
-  std::string_view meaning;  // with its source, in one line
-  // The force without adhesion. One power of the depth: d^1.5 of a tip with a radius, d^2 of one with an angle.
+  std::string_view name;     // name on the command line and in reports
+  bool has_radius;           // true: needs a radius; false: needs a half angle
+  bool has_layer;            // true: needs the thickness of a layer
+  bool is_exact;             // true: a layer of any Poisson ratio, on any base; the others need 0.5, bonded
+  bool is_adhesive;          // true: a law of adhesion, fitted to both branches
+  std::string_view meaning;  // description with its source, in one line
+  // True: without adhesion the force is one power of the depth, d^1.5 of a tip with a radius, d^2 of one with an angle.
   bool is_power;
-  double sharp = 0;                              // coefficient c of c tan(a) E* d^2; 0 with a radius
-  const std::array<double, 4>* layer = nullptr;  // terms by which a layer stiffens; null for one without or by a table
+  double sharp = 0;                              // c in the force c tan(a) E* d^2; 0 for a tip with a radius
+  const std::array<double, 4>* layer = nullptr;  // terms by which a layer stiffens; null for no layer or a table
 };
 
-// In the order of Shape.
+// Rows in the order of Shape.
 extern const std::array<ShapeRow, 15> kShapes;
 
 const ShapeRow& row_of(Shape shape);
 
 struct Indenter {
   Shape shape = Shape::Sphere;
-  double radius_m = 0;        // positive where the shape has one
-  double half_angle_rad = 0;  // between axis and edge of a cone, axis and face of a pyramid; in (0, pi/2)
-  double layer_m = 0;         // thickness on a rigid base; positive where the shape has one
-  std::shared_ptr<const LayerTable> table{};  // exact_table() of the shape; not null where it is exact
-  Base base = Base::Bonded;                   // the table's base
-  double atomic_distance_m = 0.3e-9;          // z0 of the attraction, for Maugis and for Tabor's parameter
+  double radius_m = 0;        // tip radius; positive if the shape needs one
+  double half_angle_rad = 0;  // angle between axis and edge of a cone, axis and face of a pyramid; in (0, pi/2)
+  double layer_m = 0;         // thickness on a rigid base; positive if the shape needs one
+  std::shared_ptr<const LayerTable> table{};  // exact_table() of the shape; not null if it is exact
+  Base base = Base::Bonded;                   // base of the table
+  double atomic_distance_m = 0.3e-9;          // z0 of the attraction, for Maugis and Tabor's parameter
 };
 
 // Table of an exact layer.
@@ -64,7 +64,7 @@ std::shared_ptr<const LayerTable> exact_table(Shape shape, Base base, double poi
 
 // Force at a depth per pascal of the reduced modulus E* = E/(1 - nu^2).
 struct Push {
-  double force = 0;  // N/Pa
+  double force = 0;  // force per modulus, N/Pa
   double slope = 0;  // derivative by the depth, N/(m Pa)
 };
 
@@ -77,7 +77,7 @@ struct PowerLaw {
   double coefficient = 0;
 };
 
-// Empty for a sphere and for layers; a law of adhesion counts as its paraboloid.
+// Power law of an indenter; empty for a sphere and for layers; a law of adhesion counts as its paraboloid.
 std::optional<PowerLaw> power_law_of(const Indenter& indenter) noexcept;
 
 // Strain of the layer over the largest at which the shape's formula is within 1 % of the exact layer (lab cases P09 to

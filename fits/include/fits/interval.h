@@ -3,7 +3,7 @@
 
 namespace afm::fits {
 
-// 95 % interval, from the statistics only. A limit that was not found is 0 or infinite.
+// 95 % interval, from the statistics only. A missing limit is 0 or infinite.
 struct Interval {
   double low = 0, high = 0;
 };

@@ -13,7 +13,7 @@ namespace afm::fits {
 // Contact between a layer and its rigid base.
 enum class Base {
   Bonded,
-  Sliding,  // without friction
+  Sliding,  // slips without friction
 };
 
 struct BaseName {
@@ -24,8 +24,8 @@ inline constexpr std::array kBases{BaseName{Base::Bonded, "bonded"}, BaseName{Ba
 static_assert(physics::has_row_for_each(kBases, &BaseName::base));
 
 enum class Profile {
-  Paraboloid,  // strain: sqrt(R d)/h
-  Cone,        // strain: d tan(alpha)/h
+  Paraboloid,  // strain sqrt(R d)/h
+  Cone,        // strain d tan(alpha)/h
 };
 
 // Force of a layer over that of a thick sample at the same depth, exact in small strains, by the integral equation of
@@ -36,16 +36,16 @@ class LayerTable {
   LayerTable(Profile profile, Base base, double poisson);
 
   struct Stiffening {
-    double factor = 1;  // 1 for a strain of 0
-    double slope = 0;   // derivative of its logarithm by the strain
+    double factor = 1;  // factor of the force; 1 for a strain of 0
+    double slope = 0;   // derivative of the factor's logarithm by the strain
   };
-  // Beyond largest_strain() the logarithm continues along a straight line.
+  // Stiffening at a strain; beyond largest_strain() the logarithm continues along a straight line.
   Stiffening at(double strain) const noexcept;
 
   double largest_strain() const noexcept { return strains_.back(); }
 
  private:
-  std::vector<double> strains_, logs_, slopes_;  // ascending; logarithms of the factor, and their derivatives
+  std::vector<double> strains_, logs_, slopes_;  // ascending strains, logarithms of the factor, and their derivatives
 };
 
 }  // namespace afm::fits

@@ -24,8 +24,8 @@ struct SpectrumPoint {
 struct Oscillator {
   double resonance_hz = 0;
   double quality_factor = 0;
-  double area = 0;   // mean square of the oscillator's part, from 0 to infinity: that of its equipartition
-  double floor = 0;  // density of white noise; an estimate may be a little below zero
+  double area = 0;   // mean square of the oscillator's part of the signal, from 0 to infinity, as in equipartition
+  double floor = 0;  // density of white noise; an estimate may be slightly negative
 };
 
 // (L1) floor + 2 A/(pi f0 Q) / [(1 - r^2)^2 + (r/Q)^2], r = f/f0: an oscillator under white force (fluctuation and
@@ -34,22 +34,22 @@ double density_at(const Oscillator& oscillator, double frequency_hz);
 
 // Reasons not to trust an area.
 enum class SpectrumDoubt {
-  OtherShape,     // groups of neighbours are off by more than chance
+  OtherShape,     // groups of neighbours differ by more than chance
   TooCoarse,      // fewer than four points in the width f0/Q
-  Unknown,        // the area's standard deviation is over a tenth
-  FewerAverages,  // the scatter is that of fewer averages than were given
-  Correlated      // neighbours are more correlated than a window explains
+  Unknown,        // standard deviation of the area above a tenth
+  FewerAverages,  // scatter of fewer averages than were given
+  Correlated      // neighbours more correlated than a window explains
 };
 
 struct SpectrumDoubtRow {
   SpectrumDoubt doubt;
-  std::string_view name;  // in reports
+  std::string_view name;  // name in reports
 };
 extern const std::array<SpectrumDoubtRow, 5> kSpectrumDoubts;
 
 struct FoundInSpectrum {
   SpectrumDoubt doubt;
-  double figure;  // compared value, in the unit of the limit
+  double figure;  // value compared with `limit`, in its unit
   double limit;
 };
 
@@ -57,11 +57,11 @@ struct ThermalFit {
   Oscillator oscillator;
   Interval resonance_hz, quality_factor, area, floor;
   double area_deviation = 0;            // relative standard deviation of the area
-  double averages = 0;                  // number assumed in the intervals
-  std::optional<double> seen_averages;  // number that fits the scatter; none: no scatter
-  double neighbour_factor = 1;          // growth of the variances because neighbours are correlated, by a window
+  double averages = 0;                  // number of averages assumed in the intervals
+  std::optional<double> seen_averages;  // number of averages that fits the scatter; empty: no scatter
+  double neighbour_factor = 1;          // growth of the variances because a window correlates neighbours
   std::size_t points = 0;
-  double low_hz = 0, high_hz = 0;  // first and last frequency
+  double low_hz = 0, high_hz = 0;  // first and last frequency of the fit
   std::vector<FoundInSpectrum> doubts;
 };
 

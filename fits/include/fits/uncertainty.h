@@ -11,8 +11,8 @@ namespace afm::fits {
 
 // Inputs of a fit that may be wrong.
 enum class Given {
-  SpringConstant,  // scale of all forces
-  Sensitivity,     // the optical lever's; the spring constant is that of a thermal tune with it, k ~ 1/sensitivity^2
+  SpringConstant,  // scale factor of all forces
+  Sensitivity,     // optical lever's sensitivity s; the spring constant is from a thermal tune with it, k ~ 1/s^2
   Radius,
   HalfAngle,
   Layer,
@@ -48,7 +48,7 @@ double sum_of_shares(std::span<const double> shares);
 struct Systematic {
   Uncertainty uncertainty;
   double modulus_share = 0;
-  double work_share = 0;  // 0 without a law of adhesion
+  double work_share = 0;  // relative deviation of the work of adhesion; 0 without it
 };
 
 // Relative standard deviations of the results by all uncertainties; 0 without any, not a number where a share is none.

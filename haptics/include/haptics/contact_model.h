@@ -51,30 +51,30 @@ struct ScanFeedback {
   bool on = false;
   double gain_per_s = 0;
   double elapsed_s = 0;       // time since the previous step
-  bool without_force = true;  // a step would not be felt
+  bool without_force = true;  // true: a step of the force would not be felt
 };
 
 // One step over a map; forces on the hand.
 struct MapTouch {
   physics::TipResponse response;
-  double force_n = 0;            // along the normal
-  glm::dvec2 sideways_n{0.0};    // along the sample's x and y, at a constant height above the surface
+  double force_n = 0;            // force along the normal
+  glm::dvec2 sideways_n{0.0};    // force along the sample's x and y, at a constant height above the surface
   double stored_j = 0;           // potential of the branch, zero at the least of the map
-  double damping_n_s_per_m = 0;  // viscosity for the hand in any direction; 0 without a viscous map
-  glm::dvec3 vibration_n{0.0};   // in the sample's frame; zero without a map that vibrates
-  scene::LawHere here;           // the law below the tip
+  double damping_n_s_per_m = 0;  // viscous damping of the hand in any direction; 0 without a viscous map
+  glm::dvec3 vibration_n{0.0};   // vibration force in the sample's frame; zero unless the map vibrates
+  scene::LawHere here;           // law of force below the tip
 };
 
 // One step of the tip over the sample; positions and forces in the sample's frame.
 struct Touch {
   physics::TipResponse response;
-  scene::Swing swing;  // none: the lever does not tap
-  double z_m = 0;      // above the surface below the tip
+  scene::Swing swing;  // state of the tapping lever; empty: the lever does not tap
+  double z_m = 0;      // height above the surface below the tip
   glm::dvec2 tip_xy_m{0.0};
-  MapTouch map;  // step over a map of modulus and adhesion; its response is the one above
+  MapTouch map;  // step over a map of modulus and adhesion; its response is `response`
   FeltFriction::Step friction;
   ParticlePush push;
-  GroovePull groove;  // along the axes of the sample, on the hand
+  GroovePull groove;  // pull of the groove on the hand, along the axes of the sample
   double surface_height_m = 0;
   glm::dvec3 normal{0.0, 0.0, 1.0};  // unit normal of the surface below the tip
   glm::dvec3 hand_force_n{0.0};      // force on the hand
@@ -126,7 +126,7 @@ class ContactModel {
                                                             const DeviceSpec& device, std::int64_t period_ns,
                                                             const scene::SharedLawMap* map = nullptr);
 
-  using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // in the order of scene::kScaleModes
+  using Scalings = std::array<Scaling, scene::kScaleModes.size()>;  // scalings in the order of scene::kScaleModes
 
   ~ContactModel();
 
@@ -134,10 +134,10 @@ class ContactModel {
 
   // `hand_m` is measured from the device's contact point, along the sample's axes.
   Touch step(const glm::dvec3& hand_m, const ScanFeedback& feedback = {}) noexcept;
-  bool is_level() const noexcept { return level_; }  // newest step was under a scan's feedback
+  bool is_level() const noexcept { return level_; }  // true: the newest step was under a scan's feedback
   void wait_for_lift() noexcept;
   physics::Phase phase() const noexcept;
-  double slow_motion() const noexcept { return slow_motion_; }  // as in scene::ActiveContact
+  double slow_motion() const noexcept { return slow_motion_; }  // slow-motion factor, as in scene::ActiveContact
 
   // Call only without force: the hand would feel the step. Fit before the first call. `particles` are those on the
   // sample, null for none, or else they are `marks`; they must outlive the use. Particles needs the scale that create()
@@ -157,7 +157,7 @@ class ContactModel {
  private:
   using Model = std::variant<physics::ApproachRetractModel, physics::DynamicModel, physics::TappingModel>;
 
-  using StoredEnergies = std::vector<PotentialEnergy>;  // in the same order
+  using StoredEnergies = std::vector<PotentialEnergy>;  // energies in the order of scene::kScaleModes
 
   ContactModel(Model model, std::unique_ptr<MapContact> map, SampleSurface surface,
                std::optional<FeltFriction> friction, const Scalings& scalings, StoredEnergies stored_energies,
@@ -174,8 +174,8 @@ class ContactModel {
   double attached_j(const Touch& touch, double z_m) const noexcept;
   double stiffness_n_per_m() const noexcept;
 
-  Model model_;                      // never valueless, so that visiting it cannot throw
-  std::unique_ptr<MapContact> map_;  // replaces the model over a map; null: none
+  Model model_;                      // model of the lever; never valueless, so that visiting it cannot throw
+  std::unique_ptr<MapContact> map_;  // map that replaces the model; null: none
   SampleSurface surface_;
   std::optional<FeltFriction> friction_;
   double steepest_slope_;
@@ -190,10 +190,10 @@ class ContactModel {
   double loop_m_ = 0;                      // height followed by the feedback
   double residual_m_ = 0;                  // felt part of the remaining height
   EnergyTank tank_;                        // pays for the feedback's motion
-  std::unique_ptr<PaidForce> mean_force_;  // felt in place of the push of a lever that taps; null: the push is felt
-  double mean_force_m_ = 0;                // height of the hand in the previous step of it
-  FeltParticles* particles_ = nullptr;     // those that the tip pushes, null: none
-  FeltMarks* marks_ = nullptr;             // the sample with marks below the tip instead, null: none
+  std::unique_ptr<PaidForce> mean_force_;  // mean force of a tapping lever, felt instead of its push; null: none
+  double mean_force_m_ = 0;                // height of the hand in the previous step of mean_force_
+  FeltParticles* particles_ = nullptr;     // pushed particles, not owned; null: none
+  FeltMarks* marks_ = nullptr;             // marks felt in place of everything else, not owned; null: none
   std::uint32_t edit_revision_;
 };
 

@@ -17,15 +17,15 @@ inline constexpr double kMostVibrationN = 0.1;
 
 struct DeviceSpec {
   std::string name;
-  double max_force_n = 0;                                              // nominal peak
+  double max_force_n = 0;                                              // nominal peak force
   double max_continuous_force_n = 0;                                   // continuous rating of the motors
-  double max_stiffness_n_per_m = 0;                                    // stable at the servo's rate
-  double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // above this, the driver cuts the force
-  double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // above this, the driver cuts the force
-  double force_lasts_s = std::numeric_limits<double>::infinity();      // the driver drops an older force
-  double max_vibration_n = 0;  // amplitude of a vibration that a hand may feel on it; 0: none
-  bool measures = false;       // sensors measure the position: it flickers, and can be wrong
-  bool has_own_hand = true;    // false: moved by follow()
+  double max_stiffness_n_per_m = 0;                                    // largest stable stiffness at the servo's rate
+  double max_slew_n_per_s = std::numeric_limits<double>::infinity();   // rate above which the driver cuts the force
+  double max_speed_m_per_s = std::numeric_limits<double>::infinity();  // speed above which the driver cuts the force
+  double force_lasts_s = std::numeric_limits<double>::infinity();      // age at which the driver drops a force
+  double max_vibration_n = 0;                                          // largest amplitude of a vibration; 0: none
+  bool measures = false;     // true: sensors measure the position, which flickers and can be wrong
+  bool has_own_hand = true;  // false: the hand is moved by follow()
   glm::dvec3 workspace_min_m{0.0};
   glm::dvec3 workspace_max_m{0.0};
   glm::dvec3 contact_point_m{0.0};  // position of the hand when the tip touches the undeformed sample (Z = 0)
@@ -36,7 +36,7 @@ struct DeviceSpec {
 // 0 is at the origin.
 DeviceSpec omni_like(std::string name);
 
-// The same device with positions relative to the contact point, which is then the origin: the part that a recording can
+// The device with positions relative to the contact point, which is then the origin: the part that a recording can
 // keep.
 DeviceSpec from_contact(DeviceSpec spec);
 
@@ -49,7 +49,7 @@ DeviceSpec spec_of(const scene::SharedDevice& device);
 // (sawSensablePhantom), or less for a device whose nominal peak leaves no reserve of 10 %.
 double force_cap_n(const DeviceSpec& spec);
 
-// The same device, limited by the operator: its nominal peak is reduced until force_cap_n() is at most `max_n`.
+// The device as limited by the operator: its nominal peak is reduced until force_cap_n() is at most `max_n`.
 inline constexpr double kLeastForceLimitN = 0.1;
 DeviceSpec limited_to(DeviceSpec spec, double max_n);
 
@@ -65,9 +65,9 @@ bool is_within_reach(const glm::dvec3& position_m) noexcept;
 
 struct DeviceSample {
   glm::dvec3 position_m{0.0};
-  bool turn_on = false;               // button that enables the force, held down
-  bool healthy = true;                // false: the device failed, the other fields are invalid
-  double motor_heat = 0;              // as measured by the device: 1 is the limit of its motors, 0 if unknown
+  bool turn_on = false;               // true: the button that enables the force is held down
+  bool healthy = true;                // false: the device failed, and the other fields are invalid
+  double motor_heat = 0;              // heat as measured by the device: 1 is the limit of its motors, 0 if unknown
   std::uint32_t finished_script = 0;  // revision of the newest HandScript played to its end
 };
 

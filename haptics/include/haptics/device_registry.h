@@ -27,7 +27,7 @@ inline constexpr const char* kHdDeviceVariable = "TOUCHAFM_HD_DEVICE";    // nam
 inline constexpr const char* kFdLibraryVariable = "TOUCHAFM_FD_LIBRARY";  // path or name of Force Dimension's library
 inline constexpr const char* kFdDeviceVariable = "TOUCHAFM_FD_DEVICE";    // serial number, or "#0" for the first device
 
-// Item that was looked for, and the result: lower case, no full stop.
+// Item of a search and its result: lower case, no full stop.
 struct ProbeLine {
   std::string subject;
   bool usable = false;
@@ -60,36 +60,36 @@ enum class DeviceChoice { ByName, Automatic };
 
 struct DeviceRequest {
   const Environment& environment;
-  const core::Clock& clock;  // must outlive the device
+  const core::Clock& clock;  // clock of the device's read(); must outlive the device
   DeviceChoice choice = DeviceChoice::ByName;
-  OfferReleasePath offer{};  // may be empty; for a device that another process can write to
+  OfferReleasePath offer{};  // callback for a device that another process can write to; may be empty
 };
 
 // Kind of device: one row of the registry (docs/adding-a-device.md).
 struct DeviceKind {
   std::string_view word;     // value of --haptics
   std::string_view subject;  // subject of its ProbeLine; begins with the word
-  std::string_view meaning;  // text in the help: "an Inverse3 through its maker's service"
-  bool renders_force;        // the hand itself feels the force
-  bool vibrates;             // its devices have a DeviceSpec::max_vibration_n, unless their model is unknown
-  HandControls controls;     // names of its controls on the wall
+  std::string_view meaning;  // description in the help: "an Inverse3 through its maker's service"
+  bool renders_force;        // true: the hand itself feels the force
+  bool vibrates;             // true: the devices have a DeviceSpec::max_vibration_n, unless their model is unknown
+  HandControls controls;     // names of the controls on the wall
   std::string_view remedy;   // advice for a silent device with an installed driver; empty: a probe cannot detect that
-  std::string_view proof;    // substitute for hardware in the tests of its driver; empty: none
-  std::string_view models;   // lower-case words of makers and models, which a fault report keeps in a device's name
-  std::span<const KnownPort> ports;  // its devices as the system lists them; empty: its service or library finds them
+  std::string_view proof;    // substitute for hardware in the tests of the driver; empty: none
+  std::string_view models;   // lower-case words of makers and models that a fault report keeps in a device's name
+  std::span<const KnownPort> ports;  // ports of these devices; empty: their service or library finds them
 
   // Both functions log what they tried, the device itself last.
   core::Result<std::unique_ptr<HapticDevice>> (*open)(const DeviceRequest& request, ProbeLog& log);
-  void (*probe)(const Environment& environment, ProbeLog& log);  // must not start anything
+  void (*probe)(const Environment& environment, ProbeLog& log);  // search that starts nothing
 };
 
 // Kinds in order of preference; the last one, the simulated hand, is always available.
 std::span<const DeviceKind> device_kinds();
 
-// Last kind.
+// The last kind of device_kinds(), the simulated hand.
 const DeviceKind& simulated_kind();
 
-// Null if no kind has that word.
+// Kind with that word, null if there is none.
 const DeviceKind* find_device_kind(std::string_view word);
 
 struct OpenedDevice {

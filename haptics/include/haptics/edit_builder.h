@@ -36,8 +36,8 @@ class EditBuilder {
         exchange_(exchange),
         particles_(particles) {}
 
-  // Builds new models and particles, and frees those that the servo has retired. What cannot be felt is logged and
-  // refused.
+  // Builds new models and particles, and frees those that the servo has retired. Edits that cannot be felt are logged
+  // and refused.
   void build();
 
   // Revision of the newest edit that cannot be felt, 0 for none. Any thread, wait-free.

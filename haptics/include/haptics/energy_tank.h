@@ -10,8 +10,8 @@ namespace afm::haptics {
 // of the servo.
 class EnergyTank {
  public:
-  static constexpr double kFullJ = 0.03;    // a hand of 0.12 kg at 0.7 m/s
-  static constexpr double kRefillW = 0.05;  // 0.6 N at 80 mm/s
+  static constexpr double kFullJ = 0.03;    // capacity: energy of a hand of 0.12 kg at 0.7 m/s
+  static constexpr double kRefillW = 0.05;  // refill rate: 0.6 N at 80 mm/s
 
   void fill() noexcept { held_j_ = kFullJ; }
   void refill(double elapsed_s) noexcept { held_j_ = std::min(kFullJ, held_j_ + kRefillW * elapsed_s); }

@@ -19,7 +19,7 @@ class FeltDrift {
         drifts_(level.level > 1),
         since_ns_(level.since_ns) {}
 
-  // Once a tick. The drift starts in the first one, unless the level has an earlier start.
+  // Advances the drift; call once a tick. The drift starts in the first one, unless the level has an earlier start.
   void follow(std::int64_t now_ns) noexcept {
     now_ns_ = now_ns;
     if (!drifts_) return;
@@ -29,7 +29,7 @@ class FeltDrift {
     step_m_ = way_m_ - before_m;
   }
 
-  // The sample is back where it was, and drifts from there.
+  // Returns the sample to its place, from which it drifts again.
   void begin_again() noexcept {
     if (drifts_) since_ns_ = now_ns_;
     way_m_ = step_m_ = glm::dvec2(0.0);
@@ -37,8 +37,8 @@ class FeltDrift {
 
   bool drifts() const noexcept { return drifts_; }
   std::int64_t since_ns() const noexcept { return drifts_ ? since_ns_ : 0; }
-  const glm::dvec2& way_m() const noexcept { return way_m_; }    // way since the start
-  const glm::dvec2& step_m() const noexcept { return step_m_; }  // way in the newest tick
+  const glm::dvec2& way_m() const noexcept { return way_m_; }    // drift since the start
+  const glm::dvec2& step_m() const noexcept { return step_m_; }  // drift in the newest tick
 
   // Way of the sample at a time; none before the start.
   glm::dvec2 way_at(std::int64_t time_ns) const noexcept {

@@ -33,7 +33,7 @@ namespace afm::haptics {
 // create() allocates; everything else may be called in a tick of the servo.
 class FeltFriction {
  public:
-  // The force on a curved surface takes the other half.
+  // Share of the largest stiffness; the force on a curved surface uses the other half.
   static constexpr double kShareOfStiffness = 0.5;
 
   // `material` has friction and is valid; `tables` are its own. Throws std::invalid_argument like LateralContact.
@@ -44,11 +44,11 @@ class FeltFriction {
   struct Step {
     physics::Sideways<physics::Force> lateral;  // force of the sample on the holder of the tip
     glm::dvec3 hand_force_n{0.0};
-    double given_j = 0.0;  // stored by a touch-down and paid for by the jump to contact; on the hand
+    double given_j = 0.0;  // energy on the hand stored by a touch-down and paid for by the jump to contact
     physics::LateralContact::Step events;
   };
 
-  // Height above the surface, which gives the load, and what a particle at the tip's flank bears of it.
+  // Height above the surface, which determines the load, and the part of the load that a particle at the flank bears.
   struct Pressed {
     double z_m = 0;
     double borne_n = 0;
@@ -59,9 +59,9 @@ class FeltFriction {
             const physics::TipResponse& response, const Scaling& scaling) noexcept;
   void lift() noexcept { contact_.lift(); }
 
-  double stored_j(const Scaling& scaling) const noexcept;  // on the hand
+  double stored_j(const Scaling& scaling) const noexcept;  // stored energy on the hand
   double stiffness_n_per_m(const Scaling& scaling) const noexcept;
-  double gain(const Scaling& scaling) const noexcept;  // N on the hand per lateral newton on the tip
+  double gain(const Scaling& scaling) const noexcept;  // newtons on the hand per lateral newton on the tip
 
  private:
   physics::Force load(double z_m) const noexcept;

@@ -12,10 +12,10 @@ namespace afm::haptics {
 
 // Limits of a groove on a device.
 struct GrooveLimits {
-  double most_force_n = 0;  // 0: no groove
+  double most_force_n = 0;  // largest force; 0: no groove
   double most_stiffness_n_per_m = 0;
 };
-GrooveLimits groove_limits(const DeviceSpec& device);  // `device` includes the operator's limits
+GrooveLimits groove_limits(const DeviceSpec& device);  // limits for a device as limited by the operator
 
 // Groove that guides a hand along the plan of a push: a virtual fixture (Rosenberg 1993; for an AFM's tip Varol, Gunev
 // & Basdogan). A force field in the plane of the sample, whatever the height of the hand, in metres of the hand with d
@@ -37,31 +37,31 @@ class FeltGroove {
   static constexpr double kShareOfCap = 0.25;
   static constexpr double kShareOfStiffness = 0.25;  // share of the stiffness that the device can render
   static constexpr double kFadeS = 0.5;
-  static constexpr double kDepth = 0.5823093;  // 25 sqrt(5)/96, which makes the steepest slope 1/w
-  static constexpr double kCurvature = 6.0;    // most curvature, at the line, in units of U_0/w^2
+  static constexpr double kDepth = 0.5823093;  // 25 sqrt(5)/96, depth over width at which the steepest slope is 1/w
+  static constexpr double kCurvature = 6.0;    // largest curvature, at the line, in units of U_0/w^2
   static constexpr double kRampOverWidth = 2.0;
 
   // `hand_m_per_m` is the scale of the particles.
   FeltGroove(const GrooveLimits& limits, double hand_m_per_m);
 
-  // The newest plan, a valid one (scene::is_valid).
+  // Follows the newest plan, a valid one (scene::is_valid).
   void follow(const scene::PlannedPush& plan) noexcept { plan_ = plan; }
   const scene::PlannedPush& plan() const noexcept { return plan_; }
 
   // `tip_xy_m` is in metres of the nanoworld. The groove fades while it may not act.
   GroovePull step(const glm::dvec2& tip_xy_m, bool may_act, double elapsed_s) noexcept;
 
-  // Removes it at once; call where no force is applied.
+  // Removes the groove at once; call where no force is applied.
   void drop() noexcept;
 
-  const glm::dvec2& force_n() const noexcept { return pull_.force_n; }  // in the newest step, zero after drop()
-  double half_width_m() const noexcept { return half_width_m_; }        // w, in the hand
+  const glm::dvec2& force_n() const noexcept { return pull_.force_n; }  // force in the newest step, zero after drop()
+  double half_width_m() const noexcept { return half_width_m_; }        // w, half width in the hand's metres
 
  private:
-  // In metres of the hand.
+  // Line of the plan, in metres of the hand.
   struct Line {
     glm::dvec2 from_m{0.0};
-    glm::dvec2 along{1.0, 0.0};  // unit vector
+    glm::dvec2 along{1.0, 0.0};  // unit vector of the line's direction
     double length_m = 0;
     bool operator==(const Line&) const = default;
   };

@@ -52,8 +52,8 @@ class FeltMarks {
   virtual bool put_back() noexcept = 0;
 
   virtual const ParticleScale& scale() const noexcept = 0;
-  virtual double stored_j() const noexcept = 0;           // on the hand
-  virtual double stiffness_n_per_m() const noexcept = 0;  // on the hand
+  virtual double stored_j() const noexcept = 0;           // stored energy on the hand
+  virtual double stiffness_n_per_m() const noexcept = 0;  // stiffness on the hand
   virtual double apex_z_m() const noexcept = 0;           // height of a tip on the sample
   virtual physics::Phase phase() const noexcept = 0;
 
@@ -63,10 +63,10 @@ class FeltMarks {
 
   // Next tile that has changed since it was published, which it is from then on; call once a tick, after step().
   virtual std::optional<std::uint32_t> next_tile() noexcept = 0;
-  virtual std::span<const scene::MarkTile> tiles() const noexcept = 0;  // as published
+  virtual std::span<const scene::MarkTile> tiles() const noexcept = 0;  // tiles as published
 };
 
-// The soft sample or the ink of a scene, as a predecessor left it; null: there is neither.
+// The soft sample or the ink of a scene, in the state left by a predecessor; null: there is neither.
 std::unique_ptr<FeltMarks> felt_marks_of(scene::SharedSegment& segment, const scene::SharedParticles& particles,
                                          const ParticleScale& scale, std::int64_t period_ns);
 

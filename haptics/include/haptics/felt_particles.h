@@ -50,7 +50,7 @@ class SweepingScan;
 // The constructor and resume() allocate; everything else may be called in a tick of the servo, by its thread.
 class FeltParticles {
  public:
-  static constexpr double kFeltN = 0.05;  // on the hand: a weaker touch is no event
+  static constexpr double kFeltN = 0.05;  // force on the hand below which a touch is no event
 
   // `particles` is valid (scene::validate) and has particles, `scale` is its particle_scale().
   FeltParticles(const scene::SharedParticles& particles, const ParticleScale& scale, const GrooveLimits& groove = {});
@@ -75,7 +75,7 @@ class FeltParticles {
   // Takes the tip off the particles, wherever it is.
   void lift() noexcept;
 
-  // The same where no force is applied, which ends the groove, too.
+  // Takes the tip off the particles where no force is applied, and ends the groove.
   void drop() noexcept;
 
   FeltGroove& groove() noexcept { return groove_; }
@@ -85,16 +85,16 @@ class FeltParticles {
   // resume().
   bool take_back() noexcept;
 
-  // The same for all strokes: puts every particle where it lay in the constructor. This is also a stroke, which can be
+  // Undoes all strokes: puts every particle where it lay in the constructor. This is also a stroke, which can be
   // undone. False if the tip is among the particles, or if nothing has moved. The drift starts again.
   bool put_back() noexcept;
 
-  // True if a person can look again: the tip is off the particles, and the particles are not what is shown.
+  // True if a person can order a second look: the tip is off the particles, and the picture may differ from them.
   bool may_look() const noexcept { return level_ > 0 && tip_ != Tip::Among; }
 
   const ParticleScale& scale() const noexcept { return scale_; }
-  double stored_j() const noexcept { return stored_j_; }                    // on the hand; 0 without a touch
-  double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }  // on the hand, upper limit
+  double stored_j() const noexcept { return stored_j_; }                    // energy on the hand; 0 without a touch
+  double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }  // on the hand, an upper limit
 
   // The scan in effect: while one looks with a load that is not gentle, moves its tip, and adds an event for each
   // particle that it begins to push. Call once a tick, after step().
@@ -117,7 +117,7 @@ class FeltParticles {
  private:
   enum class Tip { Waits, Over, Among };
 
-  // Numbers of a PushTick before the newest.
+  // Counts of the previous PushTick.
   struct Counts {
     std::uint64_t yields = 0, dragged = 0, torn = 0, lifted = 0, set_down = 0;
   };
@@ -136,11 +136,11 @@ class FeltParticles {
   scene::ParticlePose& pose(std::size_t particle) noexcept;
 
   ParticleScale scale_;
-  physics::PushSetup setup_;  // with the springs that are felt
+  physics::PushSetup setup_;  // setup with the springs that are felt
   physics::PushedParticles particles_;
   std::vector<double> other_threshold_n_;  // threshold of each species, by other_law()
   std::vector<scene::ParticlePage> pages_;
-  std::vector<scene::ParticlePage> start_;  // pages of the constructor
+  std::vector<scene::ParticlePage> start_;  // pages at construction
   std::vector<std::uint32_t> changed_;
   StrokeHistory strokes_;
   FeltDrift drift_;
@@ -150,17 +150,17 @@ class FeltParticles {
   double stiffness_n_per_m_;
   std::uint32_t level_;
   Tip tip_ = Tip::Waits;
-  glm::dvec3 over_m_{0.0};  // place over the particles where the tip was last
-  glm::dvec3 push_n_{0.0};  // newest ParticlePush::push_n
-  glm::dvec2 away_m_{0.0};  // way from the tip to the sphere that it pushed last
+  glm::dvec3 over_m_{0.0};  // last position of the tip over the particles
+  glm::dvec3 push_n_{0.0};  // force of the newest ParticlePush
+  glm::dvec2 away_m_{0.0};  // vector from the tip to the sphere that it pushed last
   std::int32_t spun_ = scene::kNoParticle;
   double sample_j_ = 0;  // energy of the lever on the bare sample, and of particles that press each other
   double stored_j_ = 0;
   std::uint64_t accounts_ = 0;
   std::uint64_t yields_before_ = 0;  // counts with the settings used before, modulo 2^64
   std::uint64_t exhausted_before_ = 0;
-  std::unique_ptr<SweepingScan> sweeping_;  // null at level 0
-  bool sweep_ended_ = false;                // true: the scan in effect sweeps no more
+  std::unique_ptr<SweepingScan> sweeping_;  // scan that sweeps particles; null at level 0
+  bool sweep_ended_ = false;                // true: the current scan sweeps no more
 };
 
 // Scale of particles, valid ones, with settings that they allow (scene::refusal). Fails where particle_scale() does,
@@ -186,9 +186,9 @@ class ParticleSwap {
 
   // ---- servo's thread ----
 
-  FeltParticles* used() const noexcept;  // null: none
+  FeltParticles* used() const noexcept;  // particles in use; null: none
 
-  // In use; the tool is Push or Grip, or OfSet without particles.
+  // Settings in use; the tool is Push or Grip, or OfSet without particles.
   const scene::PushSettings& settings() const noexcept { return settings_; }
 
   // True if these are not in use, and particles with them are ready.
@@ -207,17 +207,17 @@ class ParticleSwap {
  private:
   struct Built;
 
-  // With the tool of the set as Push or Grip.
+  // The settings with OfSet replaced by Push or Grip.
   scene::PushSettings in_full(const scene::PushSettings& wanted) const noexcept;
 
-  std::unique_ptr<const scene::SharedParticles> particles_;  // as in the set; null: none
+  std::unique_ptr<const scene::SharedParticles> particles_;  // particles of the set; null: none
   DeviceSpec device_{};
   scene::PushTool own_ = scene::PushTool::OfSet;
   scene::PushSettings settings_{};
-  std::unique_ptr<Built> used_, ready_;  // the servo's; null: none
+  std::unique_ptr<Built> used_, ready_;  // particles in use, particles ready to replace them; null: none
   std::atomic<Built*> offered_{nullptr};
   std::atomic<Built*> retired_{nullptr};
-  scene::PushSettings built_{};  // complete settings, for the builder's thread
+  scene::PushSettings built_{};  // newest complete settings, for the builder's thread
 };
 
 }  // namespace afm::haptics

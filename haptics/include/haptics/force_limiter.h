@@ -13,12 +13,12 @@ struct OutputRequest {
   glm::dvec3 law_force_n{0.0};  // force of the scaled model
   glm::dvec3 position_m{0.0};
   glm::dvec3 velocity_m_per_s{0.0};
-  double arm_gain = 0;           // clamped to 0..1
-  double thermal_gain = 1;       // clamped to 0..1
-  double damping_n_s_per_m = 0;  // clamped to 0..ForceLimiter::kMostDampingNSPerM
-  double slew_n_per_s = 0;       // replaces the limiter's slew limit if lower; 0: the force stays constant
-  double elapsed_s = 0;          // since the previous tick, at most one period
-  bool too_fast = false;         // velocity trip
+  double arm_gain = 0;           // gain of the arming ramp, clamped to 0..1
+  double thermal_gain = 1;       // gain of the thermal derating, clamped to 0..1
+  double damping_n_s_per_m = 0;  // requested damping, clamped to 0..ForceLimiter::kMostDampingNSPerM
+  double slew_n_per_s = 0;       // slew limit of this tick if lower than the limiter's; 0: the force stays constant
+  double elapsed_s = 0;          // time since the previous tick, at most one period
+  bool too_fast = false;         // true: velocity trip
 };
 
 // Last stage of every force, in this order: finite check, arming gain, thermal derating, damping, workspace end-stop,
@@ -31,8 +31,8 @@ struct OutputRequest {
 // Servo's thread; noexcept, allocates nothing. Does not move a device; SafetyGovernor does.
 class ForceLimiter {
  public:
-  static constexpr double kHardCapN = 3.3;           // peak of the strongest device considered
-  static constexpr double kMostDampingNSPerM = 4.0;  // more makes a device of this class buzz
+  static constexpr double kHardCapN = 3.3;           // peak force of the strongest device considered
+  static constexpr double kMostDampingNSPerM = 4.0;  // limit above which a device of this class buzzes
 
   ForceLimiter(double cap_n, double slew_n_per_s, const WorkspaceStop& stop);
 

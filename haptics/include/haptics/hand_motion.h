@@ -11,7 +11,7 @@ namespace afm::haptics {
 class HandMotion {
  public:
   static constexpr double kCutoffHz = 30.0;
-  static constexpr std::int64_t kTripNs = 5'000'000;  // one bad sample does not mean that the hand flies off
+  static constexpr std::int64_t kTripNs = 5'000'000;  // shortest excess of the trip speed, longer than one bad sample
 
   // `trip_speed_m_per_s` is the limit of the velocity trip.
   explicit HandMotion(double trip_speed_m_per_s);
@@ -22,7 +22,7 @@ class HandMotion {
   void forget() noexcept;
 
   const glm::dvec3& velocity_m_per_s() const noexcept { return velocity_m_per_s_; }
-  const glm::dvec3& moved_m() const noexcept { return moved_m_; }  // in the last call
+  const glm::dvec3& moved_m() const noexcept { return moved_m_; }  // displacement in the last call
   bool too_fast() const noexcept { return fast_ns_ >= kTripNs; }
 
  private:
@@ -31,7 +31,7 @@ class HandMotion {
   glm::dvec3 position_m_{0.0};
   glm::dvec3 moved_m_{0.0};
   glm::dvec3 velocity_m_per_s_{0.0};
-  std::int64_t fast_ns_ = 0;  // since the tick that first exceeded the trip speed
+  std::int64_t fast_ns_ = 0;  // time since the tick that first exceeded the trip speed
   bool fast_ = false;
 };
 

@@ -13,7 +13,7 @@ namespace afm::haptics {
 // at() may be called in a tick of the servo.
 class HeightPotential {
  public:
-  static constexpr double kSpacingM = 1e-4;  // distance of the nodes on the hand
+  static constexpr double kSpacingM = 1e-4;  // distance of the nodes in metres of the hand
 
   // `force_n` is the force on the hand along the normal. Allocates.
   HeightPotential(const PotentialEnergy::ForceOverHeight& force_n, PotentialEnergy::Range range);

@@ -18,7 +18,7 @@ namespace afm::haptics {
 // linear in it. Everything else is that of the material. Constant; any thread.
 class LawFamily {
  public:
-  static constexpr double kWidest = 50;  // ratio of the largest and the smallest modulus of a map
+  static constexpr double kWidest = 50;  // largest ratio of the moduli of a map
 
   // `material` and `map` are valid together (scene::validate). Fails with one line if the moduli span more than
   // kWidest, or if the values have no such law. Takes up to half a second, and allocates.
@@ -28,10 +28,10 @@ class LawFamily {
   std::size_t columns() const noexcept { return columns_; }
   std::size_t rows() const noexcept { return laws_.size() / columns_; }
 
-  // Row by row.
+  // Laws row by row.
   const std::vector<std::shared_ptr<const physics::LawTables>>& laws() const noexcept { return laws_; }
 
-  // Coordinates of a value, and back.
+  // Columns and rows of values, and values of columns and rows.
   double column_of(double modulus_pa) const noexcept;
   double row_of(double adhesion_j_per_m2) const noexcept;
   double modulus_pa(double column) const noexcept;
@@ -44,7 +44,7 @@ class LawFamily {
   std::vector<std::shared_ptr<const physics::LawTables>> laws_;
   double share_of(double modulus_pa) const noexcept { return modulus_pa / (modulus_pa + as_lever_pa_); }
 
-  double as_lever_pa_ = 1;                   // E_k
+  double as_lever_pa_ = 1;                   // E_k, modulus of a contact as stiff as the lever
   double first_share_ = 0, share_step_ = 0;  // share of the first column, and step to the next; 0: a single column
   double first_j_per_m2_ = 0, step_j_per_m2_ = 0;
 };

@@ -60,7 +60,7 @@ class MapContact {
   static constexpr double kMostDampingNSPerM = 2.0;
   static constexpr double kLeastOfDamping = 0.1;
   static constexpr double kDampsAboveM = 0.020;
-  static constexpr double kVibratesAboveM = 0.005;  // below the height at which the force is switched on
+  static constexpr double kVibratesAboveM = 0.005;  // distance above the release; less than that of arming
   static constexpr double kCollisionS = 0.1;
 
   using Scalings = ContactModel::Scalings;
@@ -83,7 +83,7 @@ class MapContact {
              const Channels& channels);
   ~MapContact();
 
-  // At a place in the sample's frame and a height above its surface; `scale` is that of the mode.
+  // Feels the map at a place in the sample's frame and a height above its surface; `scale` is that of the mode.
   // `elapsed_s` is the time since the previous step.
   MapTouch step(scene::ScaleMode mode, const Scaling& scale, const glm::dvec2& xy_m, double z_m,
                 double elapsed_s) noexcept;
@@ -104,16 +104,16 @@ class MapContact {
  private:
   // A coordinate as a surface over the sample.
   struct Laid {
-    double length_m = 1;  // height where the coordinate is 1
+    double length_m = 1;  // height at which the coordinate is 1
     SampleSurface surface;
-    double steepest_per_m = 0;  // upper limit of the coordinate's slope on the hand
-    double bend_per_m2 = 0;     // upper limit of its bend there
+    double steepest_per_m = 0;  // upper limit of the coordinate's slope, per metre of the hand
+    double bend_per_m2 = 0;     // upper limit of the coordinate's curvature, per square metre of the hand
   };
 
-  // Values of the map.
+  // Range of the map's values.
   struct Spread {
     double least = 0, most = 0;
-    double share_of(double value) const noexcept;  // 0 at the least, 1 at the largest; 0 without a difference
+    double share_of(double value) const noexcept;  // 0 at the least value, 1 at the largest; 0 without a difference
   };
   static Spread spread_of(const scene::SharedLawMap& map, std::span<const float> values);
   double most_loss_j(const MapLaw& law, const scene::SharedLawMap& map) const;
@@ -140,14 +140,14 @@ class MapContact {
   std::shared_ptr<const physics::LawTables> nominal_;
   std::array<OnScale, scene::kScaleModes.size()> scales_;
   physics::Phase phase_ = physics::Phase::WaitForLift;
-  double above_in_m_ = 0, above_off_m_ = 0;  // previous height of the hand above those of the jumps
-  double most_damping_n_s_per_m_ = 0;        // 0: not viscous
+  double above_in_m_ = 0, above_off_m_ = 0;  // height of the hand above the two jumps in the previous step
+  double most_damping_n_s_per_m_ = 0;        // largest damping; 0: the map is not viscous
   double damping_n_s_per_m_ = 0;
   scene::MapVibration vibrates_by_;
   Spread ln_modulus_, adhesion_j_per_m2_;
   std::unique_ptr<FeltVibration> vibration_;
   double vibrates_ = 0;     // strength of the vibration, 0 to 1
-  double touched_s_ = 1e3;  // time since the tip touched, or longer than it is felt
+  double touched_s_ = 1e3;  // time since the tip touched; large if the touch is no longer felt
 };
 
 }  // namespace afm::haptics

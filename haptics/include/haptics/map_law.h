@@ -49,11 +49,11 @@ class MapLaw {
   };
 
   struct Felt {
-    double energy_j = 0;         // U
-    double force_n = 0;          // along the height
-    glm::dvec2 sideways_n{0.0};  // at a constant height above the surface
+    double energy_j = 0;         // potential energy U
+    double force_n = 0;          // force along the height
+    glm::dvec2 sideways_n{0.0};  // force sideways at a constant height above the surface
   };
-  // On the free or the attached branch; nothing while the tip waits for a lift.
+  // Felt values on the free or the attached branch; zero while the tip waits for a lift.
   Felt at(physics::Phase phase, const Place& place, double height_m) const noexcept;
 
   // Heights of the jumps at a place.
@@ -92,7 +92,7 @@ class MapLaw {
   };
   Steepness steepness(PotentialEnergy::Range heights) const;
 
-  // The least energy of any law in that range.
+  // The least energy of any law in a range of heights.
   double least_j(PotentialEnergy::Range heights) const;
 
  private:
@@ -101,14 +101,14 @@ class MapLaw {
     HeightPotential attached;
     double jump_in_m;
     double jump_off_m;
-    double shift_j;  // energy added to the attached branch: both have one energy at the jump into contact
-    double loss_j;   // energy that the jump off contact loses
+    double shift_j;  // energy added to the attached branch, so that both branches agree at the jump into contact
+    double loss_j;   // energy lost by the jump off contact
   };
 
   struct Jumps {
     double in_m = 0;
     double off_m = 0;
-    glm::dvec2 in_slope{0.0};  // slopes by the two coordinates
+    glm::dvec2 in_slope{0.0};  // slopes of in_m by the two coordinates
   };
   // Energy and force of a branch, with the energy's slopes by the two coordinates.
   struct Branch {

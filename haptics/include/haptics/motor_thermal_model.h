@@ -20,7 +20,7 @@ class MotorThermalModel {
  public:
   static constexpr double kTimeConstantS = 30.0;
   static constexpr double kWarm = 0.8;
-  static constexpr double kHot = 1.0;  // removes the force; the simulated heat alone never reaches it
+  static constexpr double kHot = 1.0;  // heat at which the force is removed; the simulated heat never reaches it
   static constexpr double kRestShare = 0.9;
 
   // `continuous_force_n` is the continuous rating of the motors; if 0 (unknown), only the device's own measurement
@@ -31,7 +31,7 @@ class MotorThermalModel {
   void update(double force_n, double elapsed_s, double measured_heat) noexcept;
 
   double heat() const noexcept;
-  double gain() const noexcept;  // in (0, 1]
+  double gain() const noexcept;  // factor of the force, in (0, 1]
 
  private:
   double continuous_force_n_;

@@ -15,15 +15,15 @@ namespace afm::haptics {
 struct ParticlePush {
   struct Event {
     physics::EventKind kind = physics::EventKind::ParticleTouched;
-    double force_before_n = 0;  // lateral, on the lever; as physics::EventKind has it
+    double force_before_n = 0;  // lateral force on the lever; exceptions as in physics::EventKind
     double force_after_n = 0;
   };
 
-  bool near = false;     // a particle is within reach
-  bool touches = false;  // a particle is touched; otherwise the forces are zero
+  bool near = false;     // true: a particle is within reach
+  bool touches = false;  // true: a particle is touched; false: the forces are zero
   glm::dvec3 push_n{0.0};
-  double bears_n = 0;  // upward part of the force of its strongest contact, which the sample need not bear
-  double given_j = 0;  // energy from the drift of the sample, which pushes a tip that rests; on the hand
+  double bears_n = 0;  // upward part of the strongest contact's force, which the sample need not bear
+  double given_j = 0;  // energy on the hand from the drift of the sample below a tip at rest
   std::array<Event, 6> events{};
   std::size_t event_count = 0;
 
@@ -34,10 +34,10 @@ struct ParticlePush {
 // Pull of the groove along a planned push (haptics/felt_groove.h) in one tick, along the sample's x and y, and the
 // related input of PassivityObserver. On the hand.
 struct GroovePull {
-  bool acts = false;  // false: there is no groove, and all else is zero
+  bool acts = false;  // false: there is no groove, and the other fields are zero
   glm::dvec2 force_n{0.0};
   double stored_j = 0;
-  double given_j = 0;  // part of stored_j that a change of the gain added in this tick
+  double given_j = 0;  // part of stored_j added in this tick by a change of the gain
   double stiffness_n_per_m = 0;
 };
 

@@ -31,9 +31,9 @@ struct ParticleScale {
   static constexpr double kMostBend = 1.0 / 3.0;
   static constexpr double kSoftShare = 0.5;
 
-  double hand_m_per_m = 0;  // 0: there are no particles
-  double hand_n_per_n = 0;  // force on the hand by that of a push
-  double clear_z_m = 0;     // a tip at this height or above touches nothing; a ridge may be higher
+  double hand_m_per_m = 0;  // metres of the hand per metre of the nanoworld; 0: there are no particles
+  double hand_n_per_n = 0;  // newtons on the hand per newton of a push
+  double clear_z_m = 0;     // height from which a tip touches no particle; a ridge may be higher
   double softened_sideways = 1;
   double softened_upwards = 1;
 };
@@ -45,16 +45,16 @@ double particle_stiffness_n_per_m(const DeviceSpec& device);
 // Fails if no force moves the median particle, or if the force on the hand would be too faint.
 core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
 
-// The same of a soft sample.
+// Scale of a soft sample; otherwise as particle_scale().
 core::Result<ParticleScale> soft_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
 
-// The same of ink.
+// Scale of ink; otherwise as particle_scale().
 core::Result<ParticleScale> ink_scale(const scene::SharedParticles& particles, const DeviceSpec& device);
 
-// Springs of the lever that are felt on that scale.
+// Springs of the lever as felt on that scale.
 physics::PushSprings felt_springs(const scene::SharedPusher& pusher, const ParticleScale& scale);
 
-// The physics of these particles with the springs that are felt on that scale.
+// Physics of these particles with the springs as felt on that scale.
 physics::PushSetup felt_setup(const scene::SharedParticles& particles, const ParticleScale& scale);
 
 }  // namespace afm::haptics

@@ -31,27 +31,27 @@ namespace afm::haptics {
 // beyond kLimitJ shows that this was not enough, and the force must be removed.
 class PassivityObserver {
  public:
-  static constexpr double kToleranceJ = 5e-6;  // above the interpolation error of U
+  static constexpr double kToleranceJ = 5e-6;  // tolerance above the interpolation error of U
   static constexpr double kMostDampingNSPerM = 4.0;
-  static constexpr double kLimitJ = 1e-3;  // a hand of 0.12 kg at 0.13 m/s
+  static constexpr double kLimitJ = 1e-3;  // largest excess energy, that of a hand of 0.12 kg at 0.13 m/s
 
   // Properties of a law at one position that the observer needs, on the hand's scale.
   struct Law {
-    double stored_j = 0;           // U
-    double stiffness_n_per_m = 0;  // K: upper limit of the law's stiffness
+    double stored_j = 0;           // U, stored energy
+    double stiffness_n_per_m = 0;  // K, upper limit of the law's stiffness
     double oscillation_n = 0;      // difference between the lever's own force and its table
-    bool is_dynamic = false;       // lever that is never at rest
+    bool is_dynamic = false;       // true: the lever is never at rest
     double given_j = 0;            // part of U stored in this tick by a touch-down and paid for by the jump to contact
   };
 
   // A completed tick; device frame.
   struct Tick {
     glm::dvec3 moved_m{0.0};
-    glm::dvec3 wanted_n{0.0};      // requested by law and end-stop, with their gains
-    glm::dvec3 commanded_n{0.0};   // sent to the device
+    glm::dvec3 wanted_n{0.0};      // force requested by law and end-stop, with their gains
+    glm::dvec3 commanded_n{0.0};   // force sent to the device
     double stored_rise_j = 0;      // increase of U and of the end-stop's energy, with their gains
-    double stiffness_n_per_m = 0;  // with its gain
-    double oscillation_n = 0;      // with its gain
+    double stiffness_n_per_m = 0;  // stiffness K times its gain
+    double oscillation_n = 0;      // oscillation force times its gain
   };
 
   void integrate(const Tick& tick) noexcept;

@@ -18,9 +18,9 @@ namespace afm::haptics {
 // Applies only to devices that measure. Servo's thread: never throws, allocates nothing.
 class PositionCheck {
  public:
-  static constexpr double kFastestMPerS = 2.0;              // the velocity trip is at 0.8 m/s
+  static constexpr double kFastestMPerS = 2.0;              // largest speed of a hand; the velocity trip is at 0.8 m/s
   static constexpr double kSlackM = 0.5e-3;                 // tolerance for encoders and clocks
-  static constexpr std::int64_t kLongestGapNs = 8'000'000;  // between two positions of a working device
+  static constexpr std::int64_t kLongestGapNs = 8'000'000;  // longest time between two positions of a working device
   static constexpr std::int64_t kStuckNs = 1'000'000'000;
   static constexpr double kStuckForceN = 0.05;
 
@@ -38,8 +38,8 @@ class PositionCheck {
   bool started_ = false;
   glm::dvec3 read_m_{0.0};
   glm::dvec3 believed_m_{0.0};
-  std::int64_t forced_ns_ = 0;    // since the last change of the position, under force
-  std::int64_t believed_ns_ = 0;  // since the device last reported a plausible position
+  std::int64_t forced_ns_ = 0;    // time under force since the last change of the position
+  std::int64_t believed_ns_ = 0;  // time since the last plausible position
   int doubt_ = 0;
 };
 

@@ -29,10 +29,10 @@ class PotentialEnergy {
     double highest_m;
   };
 
-  // For heights within `range`; outside, U continues linearly. Allocates, and takes about 0.2 ms.
+  // Tabulates U for heights within `range`; outside, U continues linearly. Allocates, and takes about 0.2 ms.
   PotentialEnergy(const ForceOverHeight& free_n, const ForceOverHeight& attached_n, double jump_in_m, Range range);
 
-  // U; zero in WaitForLift, where there is no force.
+  // Potential U; zero in WaitForLift, where there is no force.
   double at(physics::Phase phase, double height_m) const noexcept;
 
   // Steepest rise of the force on the way down, of either branch where the tip can be on it; over about 0.1 mm.

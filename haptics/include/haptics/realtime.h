@@ -9,16 +9,16 @@
 
 namespace afm::haptics {
 
-inline constexpr int kServoPriority = 80;    // below the kernel's own threads at 99
-inline constexpr int kMonitorPriority = 79;  // notices the renderer's death even while both cores are drawing
+inline constexpr int kServoPriority = 80;    // priority below the kernel's own threads at 99
+inline constexpr int kMonitorPriority = 79;  // notices the renderer's death while both cores are drawing
 
 // Locking affects every page of the process, so a thread inside the renderer must not lock.
 enum class PageLock { Lock, Leave };
 
 struct RealtimeGrant {
-  int priority = 0;  // SCHED_FIFO; 0: refused
+  int priority = 0;  // priority under SCHED_FIFO; 0: refused
   bool pages_locked = false;
-  std::vector<std::string> notes;  // each refusal, with reason and remedy, for the log
+  std::vector<std::string> notes;  // refusals with reason and remedy, for the log
 
   bool realtime() const { return priority > 0 && pages_locked; }
 };
@@ -41,8 +41,8 @@ std::string limit_fix(const char* item, const char* value);
 // Sleeps until this time of CLOCK_MONOTONIC, despite signals.
 void sleep_until(std::int64_t deadline_ns) noexcept;
 
-// Same, but spins for the last `spin_ns`: the wake-up from sleep, some tens of microseconds, is then over before the
-// deadline. The processor is busy meanwhile.
+// Sleeps likewise, but spins for the last `spin_ns`: the wake-up from sleep, some tens of microseconds, is then over
+// before the deadline. The processor is busy meanwhile.
 void sleep_then_spin_until(std::int64_t deadline_ns, std::int64_t spin_ns, const core::Clock& clock) noexcept;
 
 }  // namespace afm::haptics

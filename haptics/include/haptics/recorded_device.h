@@ -15,7 +15,7 @@ namespace afm::haptics {
 
 // State of the hand in one tick of a recording.
 struct RecordedHand {
-  glm::dvec3 from_contact_m{0.0};  // device frame, from the position of Z = 0
+  glm::dvec3 from_contact_m{0.0};  // position in the device frame, relative to that of Z = 0
   bool turn_on = false;
 };
 

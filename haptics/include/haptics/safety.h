@@ -20,12 +20,12 @@ using scene::RendererLink;
 // Limits that protect a hand, a device and its motors.
 struct SafetyLimits {
   std::int64_t period_ns = 1'000'000;
-  double force_cap_n = 2.0;  // longest vector
+  double force_cap_n = 2.0;  // length of the largest force vector
   double slew_n_per_s = 500.0;
-  double trip_speed_m_per_s = 0.8;  // a relaxed hand reaches 0.6 m/s after pull-off
-  double continuous_force_n = 0;    // 0: unknown
-  double release_height_m = 0.050;  // hand height at which the tip detaches
-  glm::dvec3 workspace_min_m{0.0};  // from the contact point
+  double trip_speed_m_per_s = 0.8;  // speed of the velocity trip; a relaxed hand reaches 0.6 m/s after pull-off
+  double continuous_force_n = 0;    // continuous rating of the motors; 0: unknown
+  double release_height_m = 0.050;  // height of the hand at which the tip detaches
+  glm::dvec3 workspace_min_m{0.0};  // corner of the workspace, from the contact point
   glm::dvec3 workspace_max_m{0.0};
   bool dead_man = false;
 };
@@ -38,16 +38,16 @@ struct GovernorInput {
   std::int64_t time_ns = 0;
   glm::dvec3 hand_position_m{0.0};
   glm::dvec3 wanted_force_n{0.0};  // force of the scaled model, before any limit
-  double hand_height_m = 0;        // above the surface below the tip, on the scale of the release height
+  double hand_height_m = 0;        // height above the surface below the tip, on the scale of the release height
   physics::Phase phase = physics::Phase::WaitForLift;
-  bool pulled_off = false;  // in this tick
+  bool pulled_off = false;  // true: the tip pulled off in this tick
   bool turn_on = false;
   bool device_healthy = true;
-  double motor_heat = 0;  // as in DeviceSample
+  double motor_heat = 0;  // heat as in DeviceSample
   RendererLink renderer = RendererLink::Absent;
-  PassivityObserver::Law law_energy;  // at this height in this phase
-  bool sample_moved = false;          // moved since the previous tick, by the work of another hand
-  bool led = false;                   // led by a scan (haptics/scan_guide.h), during which the force law is silent
+  PassivityObserver::Law law_energy;  // observer's input for this height and phase
+  bool sample_moved = false;          // true: another hand moved the sample since the previous tick
+  bool led = false;                   // true: a scan leads the hand (haptics/scan_guide.h), and the force law is silent
   double damping_n_s_per_m = 0;       // requested damping
 };
 
@@ -56,12 +56,12 @@ struct GovernorInput {
 class SafetyGovernor {
  public:
   static constexpr double kSlewNPerS = 500.0;
-  static constexpr double kGuardSlewNPerS = 100.0;  // limit during kGuardNs after a tick more than two periods late
+  static constexpr double kGuardSlewNPerS = 100.0;  // slew limit for kGuardNs after a tick more than two periods late
   static constexpr std::int64_t kGuardNs = 100'000'000;
-  static constexpr std::int64_t kLateNs = 20'000'000;   // a tick after such a pause disarms
-  static constexpr std::int64_t kHangNs = 250'000'000;  // with kSlowFadeNs, less than 350 ms from heartbeat to zero
+  static constexpr std::int64_t kLateNs = 20'000'000;   // lateness of a tick that disarms
+  static constexpr std::int64_t kHangNs = 250'000'000;  // allowed age of a heartbeat; with kSlowFadeNs 340 ms to zero
   static constexpr std::int64_t kArmingNs = 500'000'000;
-  static constexpr double kArmingMarginM = 0.005;  // above the height at which the tip detaches
+  static constexpr double kArmingMarginM = 0.005;  // distance above the height at which the tip detaches
   static constexpr double kArmingForceN = 0.05;
   static constexpr double kArmingSpeedMPerS = 0.1;
   static constexpr double kTripSpeedMPerS = 0.8;
@@ -70,7 +70,7 @@ class SafetyGovernor {
 
   struct Output {
     ForceCommand command;
-    bool dropped = false;  // the force was just removed: the model must wait for a lift
+    bool dropped = false;  // true: the force was just removed, and the model must wait for a lift
   };
 
   explicit SafetyGovernor(const SafetyLimits& limits);
@@ -89,13 +89,13 @@ class SafetyGovernor {
 
   scene::ServoState state() const noexcept { return state_.state; }
   scene::FaultCode fault() const noexcept { return state_.fault; }
-  bool released() const noexcept;  // no force, and none without a new Turn-On
+  bool released() const noexcept;  // true: no force, and none without a new Turn-On
 
   double force_cap_n() const noexcept { return output_.cap_n(); }
   double slew_limit_n_per_s() const noexcept { return slew_n_per_s_; }  // slew limit in this tick
   const MotorThermalModel& motors() const noexcept { return motors_; }
   const PassivityObserver& observer() const noexcept { return observer_; }
-  double observer_damping_n_s_per_m() const noexcept { return observer_damping_; }  // in this tick
+  double observer_damping_n_s_per_m() const noexcept { return observer_damping_; }  // damping in this tick
   bool dead_man() const noexcept { return dead_man_; }
 
  private:
@@ -135,7 +135,7 @@ class SafetyGovernor {
   std::int64_t guard_until_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t damping_until_ns_ = std::numeric_limits<std::int64_t>::min();
   bool started_ = false;
-  bool turn_on_before_ = true;  // a button held from the beginning is not a press
+  bool turn_on_before_ = true;  // initially true, because a button held from the beginning is not a press
   std::int64_t time_ns_ = 0;
 };
 

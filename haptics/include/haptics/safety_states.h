@@ -17,22 +17,22 @@ namespace afm::haptics {
 
 // Conditions found in one tick.
 struct SafetyConditions {
-  scene::FaultCode cut = scene::FaultCode::None;  // DeviceError, NotFinite, StopPressed, VelocityTrip
+  scene::FaultCode cut = scene::FaultCode::None;  // reason to cut: DeviceError, NotFinite, StopPressed, VelocityTrip
   scene::RendererLink renderer = scene::RendererLink::Absent;
-  bool turn_on_edge = false;  // pressed in this tick
+  bool turn_on_edge = false;  // true: Turn-On pressed in this tick
   bool turn_on_held = false;
-  bool interlock = false;  // lifted, free, still, no force requested
-  bool dead_man = false;   // force only while Turn-On is held
-  bool late = false;       // this tick is so late that the path of the hand is unknown
-  bool outside = false;    // outside the workspace
-  bool hot = false;        // motors too hot
+  bool interlock = false;  // true: lifted, free, still, no force requested
+  bool dead_man = false;   // true: force only while Turn-On is held
+  bool late = false;       // true: this tick is so late that the path of the hand is unknown
+  bool outside = false;    // true: the hand is outside the workspace
+  bool hot = false;        // true: motors too hot
   bool energy_exceeded = false;
 };
 
 struct SafetyState {
   scene::ServoState state = scene::ServoState::Disarmed;
-  scene::FaultCode fault = scene::FaultCode::None;  // last fade or fault, until the next arming
-  std::int64_t fade_ns = 0;                         // from full force to none, while Fading
+  scene::FaultCode fault = scene::FaultCode::None;  // reason of the last fade or fault, until the next arming
+  std::int64_t fade_ns = 0;                         // time from full force to none, while Fading
 
   bool armed() const noexcept { return scene::is_armed(state); }
 };
@@ -43,7 +43,7 @@ inline constexpr std::int64_t kSlowFadeNs = 90'000'000;
 // Call at the beginning of a tick. A fade in progress changes only for a more urgent reason, one with a shorter time.
 SafetyState after_conditions(const SafetyState& before, const SafetyConditions& conditions) noexcept;
 
-// Removes the force within this time, for `fault` or, with None, in good order. Only while Arming, Running or Fading.
+// Starts to remove the force within this time, for `fault` or, with None, in good order. Only in an armed state.
 SafetyState begin_fade(const SafetyState& before, std::int64_t fade_ns, scene::FaultCode fault) noexcept;
 
 // Call at the end of a tick: `gain` is the arming gain, `silent` is true if no force is commanded.

@@ -18,7 +18,7 @@ class SampleAxes {
   bool operator==(const SampleAxes&) const = default;
 
   const glm::dvec3& x() const noexcept { return device_from_sample_[0]; }
-  const glm::dvec3& normal() const noexcept { return device_from_sample_[2]; }  // +z of the sample: outwards
+  const glm::dvec3& normal() const noexcept { return device_from_sample_[2]; }  // outward normal of the sample, its +z
 
   glm::dvec3 in_device(const glm::dvec3& in_sample) const noexcept { return device_from_sample_ * in_sample; }
   glm::dvec3 in_sample(const glm::dvec3& in_device) const noexcept { return in_device * device_from_sample_; }

@@ -35,7 +35,7 @@ class SampleSurface {
 
   struct Place {
     double height_m = 0;
-    glm::dvec2 slope{0.0};  // d height/dx, d height/dy
+    glm::dvec2 slope{0.0};  // slope of the height along x and y
   };
 
   // Plane z = 0.
@@ -68,14 +68,14 @@ class SampleSurface {
   void smooth_widely(double largest_curvature_per_m, bool mirrored);
   void add_rim(double largest_curvature_per_m);
   bool is_gentle(double largest_curvature_per_m) const;
-  const double* line_of(int row) const noexcept;         // row of the grid, clamped
-  double control_m(int column, int row) const noexcept;  // clamped to the grid
+  const double* line_of(int row) const noexcept;         // heights of a row, clamped to the grid
+  double control_m(int column, int row) const noexcept;  // height of a control point, clamped to the grid
 
   int columns_ = 0;
   int rows_ = 0;
   double spacing_m_ = 1;
   std::vector<double> controls_m_;
-  std::shared_ptr<const physics::Rim> rim_;  // null: none; shared by copies, which keeps this header small
+  std::shared_ptr<const physics::Rim> rim_;  // surroundings of the grid, shared by copies; null: none
 };
 
 }  // namespace afm::haptics

@@ -53,10 +53,10 @@ class Scaling {
  public:
   static constexpr double kStrokeM = 0.050;
   static constexpr double kPushM = 0.020;
-  static constexpr double kRecoilM = 0.020;            // above the highest release
-  static constexpr double kMaxStiffnessNPerM = 400.0;  // stable on every device of this class at 1 kHz
+  static constexpr double kRecoilM = 0.020;            // recoil above the highest release
+  static constexpr double kMaxStiffnessNPerM = 400.0;  // limit of every device of this class at 1 kHz
   static constexpr double kFaintShare = 0.02;          // fraction of 2.0 N, below the force at which the governor arms
-  static constexpr double kFaintestPullN = 0.05;       // weaker pulls are not felt by a moving hand
+  static constexpr double kFaintestPullN = 0.05;       // weakest pull that a moving hand feels
   static constexpr double kAtomM = 0.0019;             // lattice step in the hand
   static constexpr double kUsualPeriodM = 0.52e-9;     // mica's period, for a material with an unknown lattice
 
@@ -87,7 +87,7 @@ class Scaling {
   static core::Result<Scaling> particles(const physics::LawTables& tables, const DeviceSpec& device,
                                          const ParticleScale& scale);
 
-  // An error if the tip would be free of such particles only above the device.
+  // Fails if the tip would be free of such particles only above the device.
   static core::Result<void> check_clear(const ParticleScale& scale, const DeviceSpec& device);
 
   // Common scale of all these materials; at least one. Takes a millisecond for each.
@@ -99,19 +99,19 @@ class Scaling {
 
   scene::ScaleMode mode() const noexcept { return mode_; }
   double hand_m_per_m() const noexcept { return hand_m_per_m_; }
-  double hand_n_per_n() const noexcept { return hand_n_per_n_; }  // at the strongest pull; constant but in Compressed
+  double hand_n_per_n() const noexcept { return hand_n_per_n_; }  // at the strongest pull; varies only in Compressed
 
-  double lateral_m_per_m() const noexcept { return lateral_m_per_m_; }             // hand, lateral
-  double flattening() const noexcept { return hand_m_per_m_ / lateral_m_per_m_; }  // divides the slopes of a surface
+  double lateral_m_per_m() const noexcept { return lateral_m_per_m_; }             // lateral metres of the hand
+  double flattening() const noexcept { return hand_m_per_m_ / lateral_m_per_m_; }  // divisor of a surface's slopes
 
   double z_m(double hand_height_m) const noexcept { return (hand_height_m - zero_m_) / hand_m_per_m_; }
   double hand_height_m(double z_m) const noexcept { return zero_m_ + z_m * hand_m_per_m_; }
 
-  // At and above this height the tip is free, whatever happened before.
+  // Height at and above which the tip is free, whatever happened before.
   double release_height_m() const noexcept { return release_m_; }
   double release_z_m() const noexcept { return z_m(release_m_); }
 
-  // Particles only: the tip is free where it clears them, too, with another tool than that of `scale`.
+  // Particles only: raises the height at which the tip is free to clear them with another tool than that of `scale`.
   void clear_particles(double clear_z_m) noexcept;
 
   // Force on the hand along the sample's normal for a force on the tip; both positive away from the sample.
@@ -128,8 +128,8 @@ class Scaling {
   double release_m_ = kStrokeM;
   double reach_m_ = 0;  // Particles: height above which the law is silent
   double cap_n_ = 0;
-  double bend_n_ = 0;       // F0, on the tip; 0: no compression
-  double bend_gain_n_ = 0;  // on the hand
+  double bend_n_ = 0;       // F0, force on the tip; 0: no compression
+  double bend_gain_n_ = 0;  // gain of the compression, force on the hand
 };
 
 // Magnitude of the strongest attraction on either branch: at the jumps, or before them if the lever is stiff.

@@ -29,14 +29,14 @@ namespace afm::haptics {
 class ScanGuide {
  public:
   static constexpr double kStiffnessNPerM = 100.0;
-  static constexpr double kShareOfStiffness = 0.25;  // maximum share of the stiffness that the device can render
-  static constexpr double kMostForceN = 0.6;         // limit of the spring; a hand held still feels it
-  static constexpr double kDampingNSPerM = 2.0;      // applied to the hand by the governor
+  static constexpr double kShareOfStiffness = 0.25;  // largest share of the stiffness that the device can render
+  static constexpr double kMostForceN = 0.6;         // largest force of the spring, felt by a hand held still
+  static constexpr double kDampingNSPerM = 2.0;      // damping of the hand, applied by the governor
   static constexpr double kRiseS = 1.0;
   static constexpr double kLagS = 0.05;
   static constexpr double kFastestMPerS = 0.15;
-  static constexpr double kJumpMPerS = 0.25;  // speed between two points of the path
-  static constexpr double kJumpM = 0.002;     // shorter steps are never jumps, however fast
+  static constexpr double kJumpMPerS = 0.25;  // speed between two points of the path that counts as a jump
+  static constexpr double kJumpM = 0.002;     // shortest jump; shorter steps are never jumps, however fast
 
   // `device` includes the operator's limits.
   explicit ScanGuide(const DeviceSpec& device);
@@ -51,9 +51,9 @@ class ScanGuide {
   struct Input {
     glm::dvec3 hand_m{0.0};
     std::optional<Target> target;
-    bool force_on = false;  // the governor lets forces through
-    bool turn_on = false;   // held down
-    double elapsed_s = 0;   // since the previous tick
+    bool force_on = false;  // true: the governor lets forces through
+    bool turn_on = false;   // true: Turn-On is held down
+    double elapsed_s = 0;   // time since the previous tick
   };
 
   // Pull of the attractor in this tick, and the related input of PassivityObserver.
@@ -72,7 +72,7 @@ class ScanGuide {
   double stiffness_n_per_m() const noexcept { return stiffness_n_per_m_; }
   double most_force_n() const noexcept { return most_force_n_; }
   bool leads() const noexcept { return leads_; }
-  bool lost() const noexcept { return lost_; }  // Turn-On must be released before it leads again
+  bool lost() const noexcept { return lost_; }  // true: Turn-On must be released before it leads again
 
  private:
   bool is_reached_by(const Target& target) noexcept;
@@ -83,11 +83,11 @@ class ScanGuide {
   double most_force_n_;
   WorkspaceStop stop_;
   EnergyTank tank_;
-  std::optional<Target> target_;  // newest
+  std::optional<Target> target_;  // newest point of the path
   glm::dvec3 attractor_m_{0.0};
   double led_s_ = 0;
   bool leads_ = false;
-  bool lost_ = false;  // loss of the hand, until Turn-On is released
+  bool lost_ = false;  // true: hand lost, until Turn-On is released
 };
 
 }  // namespace afm::haptics

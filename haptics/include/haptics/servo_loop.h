@@ -80,7 +80,7 @@ class ServoLoop {
 
   // Force requested by sample and scan in this tick.
   struct Wanted {
-    glm::dvec3 force_n{0.0};  // device frame
+    glm::dvec3 force_n{0.0};  // force in the device frame
     double hand_height_m = 0;
     PassivityObserver::Law energy;
     bool led = false;
@@ -92,15 +92,15 @@ class ServoLoop {
     std::optional<scene::RendererHeartbeat> heartbeat;
     std::int64_t seen_ns = 0;
     bool leaving = false;
-    bool take_back = false;  // a push, ordered in this tick
-    bool put_back = false;   // all particles, ordered in this tick
-    bool look = false;       // a look at the particles, ordered in this tick
+    bool take_back = false;  // true: undoing a push was ordered in this tick
+    bool put_back = false;   // true: resetting all particles was ordered in this tick
+    bool look = false;       // true: a look at the particles was ordered in this tick
   };
   struct Hand {
     glm::dvec3 position_m;
     glm::dvec3 from_contact_m{0.0};
     bool turn_on = false;
-    bool healthy = true;  // false: the device failed, and this is the last known place
+    bool healthy = true;  // false: the device failed, and the position is the last known one
   };
 
   void read_shared_blocks(std::int64_t now_ns) noexcept;
@@ -109,7 +109,7 @@ class ServoLoop {
   void change_model() noexcept;
   void select_material(std::size_t material, scene::ScaleMode mode) noexcept;
   RendererLink renderer_link(std::int64_t now_ns) const noexcept;
-  FeltParticles* particles() const noexcept;  // null: none
+  FeltParticles* particles() const noexcept;  // particles in use; null: none
   void put_particles(double elapsed_s) noexcept;
   void put_marks() noexcept;
   void publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept;
@@ -121,12 +121,12 @@ class ServoLoop {
 
   scene::ServoSide shared_;
   HapticDevice& device_;
-  const DeviceSpec spec_;  // device's own, within the operator's limits
+  const DeviceSpec spec_;  // limits of the device, reduced to those of the operator
   ServoSettings settings_;
   std::int64_t period_ns_;
   std::uint32_t sample_node_;
-  std::unique_ptr<ParticleSwap> swap_;  // not null, empty without particles
-  std::unique_ptr<FeltMarks> marks_;    // the same for a sample on which the tip leaves marks
+  std::unique_ptr<ParticleSwap> swap_;  // particles and their replacement; never null, empty without particles
+  std::unique_ptr<FeltMarks> marks_;    // sample on which the tip leaves marks; null: none
   ModelSwap exchange_;
   EditBuilder edits_;
   SafetyGovernor governor_;
@@ -134,13 +134,13 @@ class ServoLoop {
   ContactModel* model_ = nullptr;  // model of the material under the tip, null before the first selection
   scene::Selection chosen_;        // newest selection, possibly not in effect yet
   scene::ScanLead newest_scan_;
-  scene::ScanLead scan_;  // in effect in this tick
+  scene::ScanLead scan_;  // scan in effect in this tick
   ScanGuide guide_;
   SampleAxes sample_;
-  bool sample_moved_ = false;  // in this tick
+  bool sample_moved_ = false;  // true: the sample moved in this tick
   PositionCheck position_check_;
   Hand hand_;
-  bool changing_ = false;  // force removed for a change of material, scale or parameters
+  bool changing_ = false;  // true: force removed for a change of material, scale or parameters
   RendererLink renderer_ = RendererLink::Absent;
   Touch touch_;  // touch in this tick
   scene::TipState state_;

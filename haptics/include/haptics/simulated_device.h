@@ -19,9 +19,9 @@ struct HandImpedance {
 // Imperfections of a real device; none by default. An Omni's encoders have steps of 0.055 mm, and its joints a friction
 // of up to 0.26 N (according to its data sheet).
 struct DeviceFlaws {
-  double quantum_m = 0;       // step of the reported position
-  std::int64_t delay_ns = 0;  // delay of that position, 16 ms at most; nothing between two ticks is reported
-  double friction_n = 0;      // Coulomb friction, on each axis
+  double quantum_m = 0;       // resolution of the reported position
+  std::int64_t delay_ns = 0;  // delay of the reported position, 16 ms at most; motion between two ticks is not reported
+  double friction_n = 0;      // Coulomb friction on each axis
 };
 
 inline constexpr DeviceFlaws kOmniFlaws{.quantum_m = 55e-6, .delay_ns = 1'000'000, .friction_n = 0.26};

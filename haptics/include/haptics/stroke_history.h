@@ -50,11 +50,11 @@ class StrokeHistory {
   void forget_oldest() noexcept { --strokes_; }
   std::uint64_t oldest() const noexcept { return firsts_[(newest_ - strokes_) % scene::kMostStrokes]; }
 
-  std::vector<Kept> kept_;                                   // ring
-  std::uint64_t end_ = 0;                                    // number of poses ever kept, less those taken back
-  std::array<std::uint64_t, scene::kMostStrokes> firsts_{};  // ring: first pose of each stroke
-  std::uint64_t newest_ = 0;                                 // number of strokes ever kept, less those taken back
-  std::size_t strokes_ = 0;                                  // those that can be taken back
+  std::vector<Kept> kept_;                                   // ring of poses
+  std::uint64_t end_ = 0;                                    // number of poses ever kept, minus those taken back
+  std::array<std::uint64_t, scene::kMostStrokes> firsts_{};  // ring of the first pose of each stroke
+  std::uint64_t newest_ = 0;                                 // number of strokes ever kept, minus those taken back
+  std::size_t strokes_ = 0;                                  // number of strokes that can be taken back
   std::uint64_t number_ = 1;                                 // number of the current stroke
   bool begun_ = false;                                       // true: the current stroke has a pose
   std::vector<std::uint64_t> kept_in_;                       // number of the stroke that last kept each particle

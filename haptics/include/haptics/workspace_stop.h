@@ -16,7 +16,7 @@ class WorkspaceStop {
   static constexpr double kDepthM = 0.005;
   static constexpr double kStiffnessNPerM = 150.0;
   static constexpr double kDampingNSPerM = 2.0;
-  static constexpr double kOutsideM = 0.010;  // this far outside, the wall has failed to hold the hand
+  static constexpr double kOutsideM = 0.010;  // distance outside at which the wall has failed to hold the hand
 
   WorkspaceStop(const glm::dvec3& min_m, const glm::dvec3& max_m) : min_m_(min_m), max_m_(max_m) {}
 

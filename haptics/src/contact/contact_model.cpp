@@ -65,7 +65,7 @@ physics::TappingModel tapping_model(const scene::SharedContact& material,
           physics::Time(1e-9 * static_cast<double>(period_ns))};
 }
 
-// Covers every height that the hand can reach, for any orientation of the sample.
+// Potential for every height that the hand can reach, for any orientation of the sample.
 PotentialEnergy stored_energy_of(const physics::LawTables& tables, const Scaling& scaling, const DeviceSpec& device) {
   const auto felt = [&scaling](const physics::BranchTable& branch) {
     return [&scaling, &branch](double height_m) {
@@ -113,7 +113,7 @@ core::Result<ContactModel::Scalings> scalings_of(const scene::SharedContact& mat
   return ContactModel::Scalings{*common_scaling, *fit, *compressed, *atoms, *particles};
 }
 
-// Null without a map.
+// Family of laws between which a map is interpolated, null without a map.
 core::Result<std::shared_ptr<const LawFamily>> family_of(const scene::SharedContact& material,
                                                          const scene::SharedLawMap* map) {
   if (material.law_map == 0) return nullptr;
@@ -315,7 +315,7 @@ physics::TipResponse ContactModel::step_law(physics::Length z) noexcept {
   return std::visit([z](auto& model) { return model.step(z); }, model_);
 }
 
-// Along the sample's normal, on the hand.
+// Force along the sample's normal, on the hand.
 double ContactModel::felt_force_n(Touch& touch, double elapsed_s) noexcept {
   if (map_) return touch.map.force_n;
   const auto* tapping = std::get_if<physics::TappingModel>(&model_);
@@ -380,7 +380,7 @@ PassivityObserver::Law ContactModel::energy(const Touch& touch) const noexcept {
   }
   if (level_) law.given_j += touch.level_given_j;
   if (std::holds_alternative<physics::TappingModel>(model_)) {
-    law.is_dynamic = true;  // the branch changes when the swing has left it
+    law.is_dynamic = true;  // the branch changes only when the swing has left it
   } else if (law.is_dynamic) {
     const auto& branch = attached ? tables_->attached : tables_->free;
     const double at_rest_n = scaling().hand_force_n(branch.force(physics::Length(touch.z_m)).si);

@@ -25,7 +25,7 @@ Touch ContactModel::step_marks(const glm::dvec3& hand_m, const ScanFeedback& fee
   const bool on = touch.push.near;
   touch.response.phase = marks_->phase();
   touch.response.force = physics::Force(touch.push.push_n.z);
-  // Z less the deflection is the height of the tip; what a fast hand raises the lever by is part of it
+  // Z minus the deflection is the height of the tip; it includes the rise of a lever over which a hand moves too fast
   touch.response.tip_height = physics::Length(on ? marks_->apex_z_m() : touch.z_m);
   touch.response.cantilever_deflection = physics::Length(touch.z_m) - touch.response.tip_height;
   touch.response.sample_deformation = std::min(physics::Length(0.0), touch.response.tip_height);

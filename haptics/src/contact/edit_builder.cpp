@@ -14,7 +14,7 @@
 namespace afm::haptics {
 
 namespace {
-// Short enough for a hand that turns a knob; a check costs less than a microsecond.
+// Interval of checks for edits, short enough for a hand that turns a knob; a check costs less than a microsecond.
 constexpr auto kLookEvery = std::chrono::milliseconds(5);
 }  // namespace
 

@@ -8,7 +8,7 @@ namespace afm::haptics {
 
 namespace {
 
-constexpr double kSlopeWayM = 1e-12;  // step in Z, far below the motion in a tick
+constexpr double kSlopeWayM = 1e-12;  // step in Z of a derivative, far below the motion in a tick
 
 physics::Sideways<physics::Length> place_of(const glm::dvec2& xy_m) {
   return {physics::Length(xy_m.x), physics::Length(xy_m.y)};

@@ -69,7 +69,7 @@ GroovePull FeltGroove::step(const glm::dvec2& tip_xy_m, bool may_act, double ela
   return pull_;
 }
 
-// At full gain.
+// Potential and force at full gain.
 FeltGroove::Field FeltGroove::field_at(const glm::dvec2& hand_m) const noexcept {
   const glm::dvec2 across(-line_.along.y, line_.along.x), way_m = hand_m - line_.from_m;
   const double aside = glm::dot(way_m, across) / half_width_m_, rest = 1.0 - aside * aside;

@@ -132,7 +132,7 @@ void FeltInk::touch_down() noexcept {
 ParticlePush FeltInk::step(const glm::dvec2& tip_xy_m, double z_m, double elapsed_s) noexcept {
   ParticlePush step;
   const glm::dvec3 at_m(tip_xy_m, z_m), before_m = hand_m_;
-  const bool on_square = std::abs(at_m.x) <= reach_m_ && std::abs(at_m.y) <= reach_m_;  // false for NaN
+  const bool on_square = std::abs(at_m.x) <= reach_m_ && std::abs(at_m.y) <= reach_m_;  // false for NaN, too
   if (!std::isfinite(z_m) || !on_square) {
     lift();
     return step;

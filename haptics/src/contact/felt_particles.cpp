@@ -69,7 +69,7 @@ FeltParticles::FeltParticles(const scene::SharedParticles& particles, const Part
   const double sine = std::sin(setup_.tip.half_angle_rad), cosine = std::cos(setup_.tip.half_angle_rad);
   for (physics::ParticleSpecies species : setup_.species) {
     const physics::TipGrip grip = physics::flank_grip(setup_.tip, species, setup_.tip_friction);
-    if (physics::turns_flat(species)) {  // measured alone
+    if (physics::turns_flat(species)) {  // no other law than the measured threshold
       other_threshold_n_.push_back(0.0);
       continue;
     }
@@ -153,7 +153,7 @@ void FeltParticles::put_carried_back() noexcept {
   lay_down(carried);
 }
 
-// A sphere that hung on the tip lies where the physics has it.
+// Sets a sphere that hung on the tip down at its place in the physics.
 void FeltParticles::lay_down(std::size_t particle) noexcept {
   scene::ParticlePose lies = pose(particle);
   const glm::dvec2 at_m = flat(particles_.position(particle));
@@ -201,7 +201,7 @@ bool FeltParticles::put_back() noexcept {
   return moved;
 }
 
-// hold_over() follows before the tip meets a particle again.
+// Call hold_over() before the tip meets a particle again.
 void FeltParticles::put(std::uint32_t particle, const scene::ParticlePose& there) noexcept {
   particles_.put(particle, place_of(there));
   change(particle, there);
@@ -280,7 +280,7 @@ double FeltParticles::borne_n(const physics::PushTick& tick) const noexcept {
   return std::max(0.0, (tick.normal * physics::side_contact(setup_.tip, radius, tick.apex.z).sine).si);
 }
 
-// A sphere that slides beside the path of the tip, whose contact holds, turns under it.
+// Turns a sphere that slides beside the path of the tip while its contact holds.
 void FeltParticles::spin(const physics::PushTick& tick, std::uint32_t particle, scene::ParticlePose& pose) noexcept {
   const glm::dvec2 before_m = std::exchange(away_m_, glm::dvec2(pose.x_m, pose.y_m) - flat(tick.base.position));
   const bool goes_on = std::exchange(spun_, static_cast<std::int32_t>(particle)) == static_cast<std::int32_t>(particle);
@@ -290,7 +290,7 @@ void FeltParticles::spin(const physics::PushTick& tick, std::uint32_t particle, 
   pose.orientation = spun(pose.orientation, before_m, away_m_, glm::length(away_m_) / (radius.si * cosine));
 }
 
-// Force and energy of the particles alone: without what a lever that presses on the bare sample would have.
+// Force and energy of the particles: minus those of a lever that presses on the bare sample.
 void FeltParticles::account(const physics::PushTick& tick) noexcept {
   const double pressed_m = std::min(0.0, tick.base.z.si), normal_n_per_m = setup_.springs.normal.si;
   const double alone_j = 0.5 * normal_n_per_m * pressed_m * pressed_m;

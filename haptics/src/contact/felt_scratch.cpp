@@ -111,7 +111,7 @@ bool FeltScratch::put_back() noexcept {
   return moved;
 }
 
-// From here on, the contact depends only on the surface as published.
+// Begins a contact, which from here on depends only on the surface as published.
 void FeltScratch::touch_down() noexcept {
   tip_.hold_over(lever_at(hand_m_));
   tip_is_ = Tip::On;
@@ -136,7 +136,7 @@ void FeltScratch::keep_tiles(const physics::Sideways<Length>& place) noexcept {
 double FeltScratch::raise(double way, double z_m, double elapsed_s) noexcept {
   const double share = std::clamp((way - kFullWay) / (kMostWay - kFullWay), 0.0, 1.0);
   const double wanted_m = share * std::max(0.0, tip_.surface().highest().si - std::min(z_m, hand_m_.z));
-  if (share >= 1.0 && tip_.last().stored.si > 0.0) {  // free at once
+  if (share >= 1.0 && tip_.last().stored.si > 0.0) {  // lever free of the sample at once
     rise_m_ = std::max(rise_m_, wanted_m);
     tip_.hold_over(lever_at({hand_m_.x, hand_m_.y, hand_m_.z + rise_m_}));
     ++accounts_;
@@ -182,7 +182,7 @@ ParticlePush FeltScratch::step(const glm::dvec2& tip_xy_m, double z_m, double el
   const double lost_by_tank_j = tip_.last().lost.si;
   const physics::ScratchTick& tick = tip_.move_to(lever_at({at_m.x, at_m.y, at_m.z + rise_m_}));
   hand_m_ = at_m;
-  if (tick.lagging && rise_m_ == 0.0) {  // after a stall of the servo
+  if (tick.lagging && rise_m_ == 0.0) {  // tip left behind by a stall of the servo
     lift();
     return step;
   }
@@ -198,7 +198,7 @@ ParticlePush FeltScratch::step(const glm::dvec2& tip_xy_m, double z_m, double el
   return step;
 }
 
-// Over the sample a tip no longer waits, once every mark has been published.
+// Holds the tip over the sample, where it no longer waits once every mark has been published.
 void FeltScratch::hold_over(const glm::dvec3& at_m) noexcept {
   if (tip_is_ == Tip::On) lift();
   if (tip_is_ == Tip::Waits && tiles_->wait(tip_.surface())) return;

@@ -19,7 +19,7 @@ namespace afm::haptics {
 // Servo's thread: wait-free, allocates nothing.
 class FeltVibration {
  public:
-  static constexpr double kPerS = 100.0;             // well-felt rate, with ten ticks a period
+  static constexpr double kPerS = 100.0;             // rate that is felt well, with ten ticks a period
   static constexpr double kShareOfStiffness = 0.25;  // share of the stiffness that the device renders
 
   explicit FeltVibration(const DeviceSpec& device);
@@ -36,8 +36,8 @@ class FeltVibration {
  private:
   double most_n_;
   double stiffness_n_per_m_;
-  std::optional<glm::dvec3> anchor_m_;  // none: at rest
-  double phase_ = 0;                    // share of a period
+  std::optional<glm::dvec3> anchor_m_;  // anchor of the spring; empty: at rest
+  double phase_ = 0;                    // phase as a fraction of a period
   double stored_j_ = 0;
 };
 

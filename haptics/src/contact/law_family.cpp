@@ -16,11 +16,11 @@ namespace afm::haptics {
 
 namespace {
 
-constexpr double kSame = 1e-6;             // smaller relative range: one value
-constexpr std::size_t kModulusSteps = 12;  // steps between the softest and the stiffest modulus
-constexpr std::size_t kAdhesionSteps = 3;  // steps between the weakest and the strongest adhesion
-constexpr double kLeastShare = 0.1;        // least modulus of a law, as a share of the map's
-constexpr double kWeakest = 1e-3;          // least adhesion of a law, as a share of the strongest
+constexpr double kSame = 1e-6;             // relative range below which all values count as one
+constexpr std::size_t kModulusSteps = 12;  // number of steps between the softest and the stiffest modulus
+constexpr std::size_t kAdhesionSteps = 3;  // number of steps between the weakest and the strongest adhesion
+constexpr double kLeastShare = 0.1;        // smallest modulus of a law, as a share of the map's smallest
+constexpr double kWeakest = 1e-3;          // smallest adhesion of a law, as a share of the largest
 
 struct Values {
   double low, high;
@@ -63,7 +63,7 @@ core::Result<std::shared_ptr<const LawFamily>> LawFamily::create(const scene::Sh
   }
   std::shared_ptr<LawFamily> family(new LawFamily);
   const double softest_pa = std::exp(modulus.low), stiffest_pa = std::exp(modulus.high);
-  constexpr double kDepth = 0.1;  // depth in tip radii
+  constexpr double kDepth = 0.1;  // depth of indentation in tip radii
   family->as_lever_pa_ =
       material.contact.spring_constant.si / (2.0 * std::sqrt(kDepth) * material.contact.tip_radius.si);
   family->first_share_ = family->share_of(softest_pa);

@@ -20,21 +20,21 @@ using scene::ScaleMode;
 
 namespace {
 
-constexpr double kLeastLengthM = 1e-12;     // length for a map with one law
-constexpr double kWidestBend_per_m = 1e15;  // curvature that limits nothing
-constexpr double kNoJumpM = 1e-6;           // width of a loop on the hand, below which there is no jump
-constexpr double kMostOfStiffness = 1.001;  // share of the device's stiffness, along the normal
-constexpr double kLongestFloorM = 1.0;      // length beyond any reach: no floor
-constexpr double kDampedMPerS = 1.0;        // speed at which the damping is no stronger than the device
-constexpr double kFirstShare = 1e-6;        // share of the damping that begins at once
-constexpr double kFeltCollisions = 5.0;     // time for which a touch vibrates, in its time constants
+constexpr double kLeastLengthM = 1e-12;     // length of a coordinate's height for a map with one law
+constexpr double kWidestBend_per_m = 1e15;  // curvature that is no limit
+constexpr double kNoJumpM = 1e-6;           // width of a loop on the hand below which there is no jump
+constexpr double kMostOfStiffness = 1.001;  // largest stiffness along the normal as a multiple of the device's
+constexpr double kLongestFloorM = 1.0;      // length beyond any reach, for a map without a floor
+constexpr double kDampedMPerS = 1.0;        // speed at which the damping is no stronger than the device's force
+constexpr double kFirstShare = 1e-6;        // share of the damping that begins without delay
+constexpr double kFeltCollisions = 5.0;     // duration of a touch's vibration in units of its time constant
 
 // Heights of the hand in the workspace, for a level sample.
 PotentialEnergy::Range within(const DeviceSpec& device) {
   return {device.workspace_min_m.y - device.contact_point_m.y, device.workspace_max_m.y - device.contact_point_m.y};
 }
 
-// From 0 at 0 to 1 at 1, level at both ends and beyond.
+// Step from 0 at 0 to 1 at 1, level at both ends and beyond.
 double eased(double share) {
   const double t = std::clamp(share, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
@@ -72,7 +72,7 @@ std::shared_ptr<const MapLaw> on_hand(const LawFamily& family, const Scaling& sc
   return std::make_shared<const MapLaw>(laws, family.columns(), PotentialEnergy::Range{-reach_m, reach_m});
 }
 
-// A sheet that is laid over the sample, and its scale.
+// Scale of a coordinate as a surface over the sample, and the surface.
 struct Sheet {
   const scene::SharedLawMap& map;
   double spacing_m;
@@ -126,7 +126,7 @@ MapContact::MapContact(std::shared_ptr<const LawFamily> family, std::shared_ptr<
     const Scaling& scaling = scalings[core::index_of(row.mode)];
     OnScale& scale = scales_[core::index_of(row.mode)];
     if (row.mode == ScaleMode::Atoms) {
-      scale = on(ScaleMode::Fit);  // along the normal they are the same; Fit comes before
+      scale = on(ScaleMode::Fit);  // scale of Fit, which comes first; the laws are the same along the normal
     } else {
       // a longer way to the floor is softer
       double floor_m = kFloorM;
@@ -218,7 +218,7 @@ void MapContact::note_jump(const MapLaw& law, const Scaling& scale, const MapLaw
                       .fraction = was_m != is_m ? std::clamp(was_m / (was_m - is_m), 0.0, 1.0) : 1.0});
 }
 
-// None while the tip waits for a lift.
+// Damping on the hand, none while the tip waits for a lift.
 double MapContact::damp(const MapLaw& law, const MapLaw::Place& place, double hand_m, double elapsed_s) noexcept {
   if (most_damping_n_s_per_m_ == 0.0 || phase_ == Phase::WaitForLift) return damping_n_s_per_m_ = 0.0;
   const double share = law.most_loss_j() > 0.0 ? law.loss_j(place) / law.most_loss_j() : 0.0;
@@ -229,7 +229,7 @@ double MapContact::damp(const MapLaw& law, const MapLaw::Place& place, double ha
   return damping_n_s_per_m_ = std::min(wanted, grown);
 }
 
-// From 0 to 1. None while the tip waits for a lift.
+// Strength from 0 to 1, none while the tip waits for a lift.
 double MapContact::strength_of_vibration(const OnScale& scale, const MapLaw::Place& place, double hand_m, Phase before,
                                          double elapsed_s) noexcept {
   const MapLaw& law = *scale.law;

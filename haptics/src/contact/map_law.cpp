@@ -19,7 +19,7 @@ struct Around {
   std::array<double, 3> slope{};
 };
 
-// Beyond the ends the outermost law counts again.
+// Neighbours of a coordinate; beyond the ends the outermost law counts again.
 Around around(double at, std::size_t count) noexcept {
   const auto last = static_cast<double>(count - 1);
   // NaN goes to an end, too
@@ -32,7 +32,7 @@ Around around(double at, std::size_t count) noexcept {
           {-before, -2.0 * offset, after}};
 }
 
-constexpr double kEverySo_m = 5e-4;  // distance of the heights at which limits are looked for
+constexpr double kEverySo_m = 5e-4;  // distance of the heights at which limits are evaluated
 
 template <class Visit>
 void for_each_height(PotentialEnergy::Range heights, const Visit& visit) {
@@ -102,7 +102,7 @@ MapLaw::Branch MapLaw::branch_of(const Mixture& mixture, const HeightPotential B
   return branch;
 }
 
-// Shifted so that its energy at the jump into contact is that of the free branch.
+// Attached branch, shifted so that its energy at the jump into contact is that of the free branch.
 MapLaw::Branch MapLaw::attached_of(const Mixture& mixture, double height_m) const noexcept {
   const Jumps jumps = jumps_at(mixture);
   Branch branch = branch_of(mixture, &Branches::attached, height_m);

@@ -15,11 +15,11 @@ namespace afm::haptics {
 // at most scene::kMostStrokes of them. The constructor allocates; nothing else does. One thread.
 class MarkHistory {
  public:
-  static constexpr std::size_t kMostCopies = 512;  // 2 MB
+  static constexpr std::size_t kMostCopies = 512;  // capacity in tiles, 2 MB
 
   MarkHistory() : copies_(kMostCopies) { strokes_.reserve(scene::kMostStrokes); }
 
-  // A stroke begins.
+  // Begins a stroke.
   void begin() noexcept {
     kept_.fill(0);
     open_ = false;
@@ -57,7 +57,7 @@ class MarkHistory {
     return true;
   }
 
-  // The stroke has changed nothing, and is none.
+  // Ends a stroke that has changed nothing, and forgets it.
   void forget_this() noexcept {
     if (open_ && !strokes_.empty()) strokes_.pop_back();
     begin();
@@ -88,10 +88,10 @@ class MarkHistory {
 
   void forget_oldest() noexcept { strokes_.erase(strokes_.begin()); }
 
-  std::vector<Copy> copies_;  // in a ring
+  std::vector<Copy> copies_;  // ring of copies
   std::vector<Stroke> strokes_;
-  std::array<std::uint8_t, scene::kMarkTiles> kept_{};  // 1: in the newest stroke
-  bool open_ = false;                                   // the newest stroke has begun, and has a copy
+  std::array<std::uint8_t, scene::kMarkTiles> kept_{};  // 1: tile copied in the newest stroke
+  bool open_ = false;                                   // true: the newest stroke has begun, and has a copy
   bool broken_ = false;
 };
 

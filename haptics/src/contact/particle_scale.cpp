@@ -24,11 +24,11 @@ namespace {
 // Softest contact of tip and particle relative to the lever that is felt: stiffer ones indent by less than a
 // hundredth of what the lever bends, and only make the descent of several particles slower.
 constexpr double kContactOverLever = 100.0;
-constexpr double kSoftRadii = 12.0;   // side of the part of a soft sample that every hand reaches
-constexpr double kInkDots = 6.0;      // the same for ink, in dots of a second
-constexpr double kLeastSlope = 1e-3;  // least slope of a flank by which its climb is divided
+constexpr double kSoftRadii = 12.0;   // side of the part of a soft sample that every hand reaches, in tip radii
+constexpr double kInkDots = 6.0;      // side of the part of an inked sample that every hand reaches, in dots
+constexpr double kLeastSlope = 1e-3;  // smallest slope of a flank by which its climb is divided
 
-// Radius as seen from above.
+// Radius seen from above.
 double outer_m(const scene::SharedParticles& particles, std::uint32_t species) {
   return std::max(particles.species[species].radius_m, particles.island_radius_m[species]);
 }
@@ -55,7 +55,7 @@ double hand_m_per_m(const scene::SharedParticles& particles, double diameter_m, 
   double left_m = HUGE_VAL, right_m = -HUGE_VAL, front_m = HUGE_VAL, back_m = -HUGE_VAL;
   for (std::uint32_t i = 0; i < particles.count; ++i) {
     const scene::SharedParticle& particle = particles.particles[i];
-    const double half_m = 0.5 * particles.length_m.at(particle.species);  // reach of a rod, whichever way it turns
+    const double half_m = 0.5 * particles.length_m.at(particle.species);  // reach of a rod in any direction
     left_m = std::min(left_m, particle.x_m - half_m);
     right_m = std::max(right_m, particle.x_m + half_m);
     front_m = std::min(front_m, particle.y_m - half_m);
@@ -167,7 +167,7 @@ core::Result<ParticleScale> particle_scale(const scene::SharedParticles& particl
   const double diameter_m = 2.0 * physics::outer_radius(species).si;
   scale.hand_m_per_m = hand_m_per_m(particles, diameter_m, device);
   double distance_m = physics::side_contact(setup.tip, radius, physics::Length(0.0)).distance.si;
-  if (physics::is_island(species)) {  // flat: the tip would ride over it before it runs round it
+  if (physics::is_island(species)) {  // no push round an island: the tip would ride over it first
     const double climb_m = physics::crest_height(setup.tip, radius).si * cosine / std::max(sine, kLeastSlope);
     distance_m = std::min(distance_m + physics::core_radius(species).si, std::max(0.0, climb_m));
   }

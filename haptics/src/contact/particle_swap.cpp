@@ -34,7 +34,7 @@ core::Result<ParticleScale> scale_of(const SharedParticles& adjusted, const Devi
   return scale;
 }
 
-// Where a predecessor left them.
+// Restores the particles to the state left by a predecessor.
 void resume(FeltParticles& felt, scene::SharedSegment& segment) {
   const scene::ServoSide side = segment.servo_side();
   std::vector<scene::ParticlePage> pages;
@@ -53,7 +53,7 @@ struct ParticleSwap::Built {
         const DeviceSpec& device)
       : settings(with), felt(particles, scale, groove_limits(device)) {}
 
-  PushSettings settings;  // complete settings
+  PushSettings settings;  // complete settings of these particles
   FeltParticles felt;
 };
 
@@ -97,7 +97,7 @@ bool ParticleSwap::changes(const PushSettings& wanted) noexcept {
   }
   if (!ready_ || retired_.load(std::memory_order_relaxed) != nullptr) return false;
   if (ready_->settings == in_full(wanted) && ready_->settings != settings_) return true;
-  retired_.store(ready_.release(), std::memory_order_release);  // no longer wanted
+  retired_.store(ready_.release(), std::memory_order_release);  // no longer requested
   return false;
 }
 

@@ -21,7 +21,7 @@ class PublishedTiles {
   const scene::MarkTile& at(std::uint32_t tile) const noexcept { return tiles_[tile]; }
   bool is_bare(std::uint32_t tile) const noexcept { return marks_[tile] == 0; }
 
-  // To be written; publish() follows.
+  // Tile to be written; publish() follows.
   scene::MarkTile& next(std::uint32_t tile) noexcept { return tiles_[tile]; }
   void publish(std::uint32_t tile) noexcept {
     const std::uint64_t mark = scene::tile_mark(tile, tiles_[tile]);
@@ -29,7 +29,7 @@ class PublishedTiles {
     marks_[tile] = mark;
   }
 
-  // With one more for each tile that waits, so that no session begins before it is published.
+  // Digest with 1 added for each waiting tile, so that no session begins before it is published.
   template <class Surface>
   std::uint64_t digest(const Surface& surface) const noexcept {
     std::uint64_t digest = digest_;
@@ -46,7 +46,7 @@ class PublishedTiles {
       next_ = tile + 1;
       return tile;
     }
-    next_ = 0;  // lets a session begin here
+    next_ = 0;  // restart, so that a session can begin here
     return std::nullopt;
   }
 
@@ -60,12 +60,12 @@ class PublishedTiles {
 
  private:
   std::vector<scene::MarkTile> tiles_;
-  std::vector<std::uint64_t> marks_;  // numbers of the tiles
+  std::vector<std::uint64_t> marks_;  // mark of each tile, its part of the digest
   std::uint64_t digest_ = scene::kSoftDigest;
   std::uint32_t next_ = 0;  // first tile of the next search for a changed one
 };
 
-// State of a push on marks of which everything but the tip is known.
+// Push on marks, complete except for the tip.
 inline scene::TipPush push_on(const ParticleScale& scale) noexcept {
   return {.hand_m_per_m = scale.hand_m_per_m,
           .hand_n_per_n = scale.hand_n_per_n,

@@ -7,7 +7,7 @@
 namespace afm::haptics {
 
 namespace {
-constexpr double kParallel = 1e-6;  // rad: smallest angle between x and z of a usable transform
+constexpr double kParallel = 1e-6;  // smallest angle between x and z of a usable transform, rad
 }  // namespace
 
 bool SampleAxes::set_orientation(const std::array<double, 16>& room_from_sample) noexcept {

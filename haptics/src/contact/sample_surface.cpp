@@ -142,7 +142,7 @@ SampleSurface::SampleSurface(const scene::FeltHeights& drawn, double tip_radius_
 
 // Wide enough that neither slope nor curvature exceeds the sample's limits where the slope along the edge fades.
 void SampleSurface::add_rim(double largest_curvature_per_m) {
-  constexpr double kWidthOfBends = 10.0;  // in radii of the smallest bend at the steepest slope
+  constexpr double kWidthOfBends = 10.0;  // width of the rim in radii of the smallest bend at the steepest slope
   const double slope = steepest_slope();
   if (slope <= 0.0) return;
   const std::vector<double> edge_m =

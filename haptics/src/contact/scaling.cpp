@@ -15,14 +15,14 @@ namespace {
 constexpr double kKneeShare = 0.75;
 constexpr double kPushShareOfRadius = 0.1;
 constexpr double kLeastShareOfDepth = 0.25;  // fraction of a recording's depth that the stroke fills
-constexpr double kRounding = 1e-9;           // relative
+constexpr double kRounding = 1e-9;           // relative rounding error
 
 // Start of compression, as a fraction of the snap-in, or of the strongest pull without one; and the limit above which
 // compression is too weak and is omitted.
 constexpr double kBendShareOfSnap = 0.5;
 constexpr double kBendShareOfPull = 0.1;
-constexpr double kLargestBend = 30.0;       // multiple of the strongest pull
-constexpr double kFaintAtReleaseN = 0.045;  // on the hand; the governor arms below 0.05 N
+constexpr double kLargestBend = 30.0;       // largest F0 as a multiple of the strongest pull
+constexpr double kFaintAtReleaseN = 0.045;  // force on the hand at the release; the governor arms below 0.05 N
 
 // Margin of the release above particles and pull.
 constexpr double kOverParticlesM = 0.002;
@@ -49,8 +49,8 @@ double faint_above_m(const physics::LawTables& tables, double faint_n) {
   double near_m = tables.figures.z_jtc.si;
   if (faint(near_m)) return near_m;
   double far_m = std::max(near_m, tables.contact.atomic_distance.si);
-  while (!faint(far_m) && std::isfinite(far_m)) far_m *= 2.0;  // an infinite reach is refused
-  constexpr int kMostHalvings = 60;                            // it may cross zero
+  while (!faint(far_m) && std::isfinite(far_m)) far_m *= 2.0;  // doubles the distance; an infinite reach is refused
+  constexpr int kMostHalvings = 60;                            // bisections of a force that may cross zero
   for (int i = 0; i < kMostHalvings && far_m - near_m > 1e-6 * std::abs(far_m); ++i) {
     const double middle_m = 0.5 * (near_m + far_m);
     (faint(middle_m) ? far_m : near_m) = middle_m;
@@ -60,9 +60,9 @@ double faint_above_m(const physics::LawTables& tables, double faint_n) {
 
 // Properties of a material that a scale must accommodate.
 struct Extent {
-  double reach_m = 0;   // Z range that the stroke fills
-  double strong_n = 0;  // on the tip: becomes the largest force on the device
-  double felt_n = 0;    // on the tip: must stay strong enough to be felt
+  double reach_m = 0;   // range of Z that the stroke fills
+  double strong_n = 0;  // force on the tip that becomes the largest force on the device
+  double felt_n = 0;    // force on the tip that must stay strong enough to be felt
 };
 
 Extent extent_of(const physics::LawTables& tables) {
@@ -90,7 +90,7 @@ Extent extent_of(const physics::LawTables& tables) {
   return {push_m * Scaling::kStrokeM / Scaling::kPushM, strong_n, strong_n};
 }
 
-// Of laws on one scale.
+// Extent of several laws on one scale.
 Extent extent_of(Laws laws) {
   Extent all = extent_of(*laws.front());
   for (const auto& law : laws.subspan(1)) {
@@ -138,7 +138,7 @@ double excess_of_stiffness(const Scaling& scaling, const physics::LawTables& tab
   return std::max({free, attached, pressed}) / std::min(Scaling::kMaxStiffnessNPerM, device.max_stiffness_n_per_m);
 }
 
-// Of all laws on one scale.
+// Excess of stiffness of several laws on one scale.
 double excess_of_stiffness(const Scaling& scaling, Laws laws, const DeviceSpec& device) {
   double most = 0.0;
   for (const auto& law : laws) most = std::max(most, excess_of_stiffness(scaling, *law, device));

@@ -13,7 +13,7 @@ constexpr double kUsableShare = 0.9;
 constexpr double kFarthestM = 1e3;
 }  // namespace
 
-// Force and stability from the vendor's data sheet and CHAI3D's table.
+// Profile with force and stability from the vendor's data sheet and CHAI3D's table.
 DeviceSpec omni_like(std::string name) {
   return {.name = std::move(name),
           .max_force_n = 3.3,

@@ -24,7 +24,7 @@ class ForceRumble {
   static constexpr std::int64_t kSnapNs = 40'000'000;
   static constexpr std::int64_t kReleaseNs = 120'000'000;
   static constexpr double kHumShare = 0.35;
-  static constexpr double kFaintN = 0.02;  // weaker forces are silent
+  static constexpr double kFaintN = 0.02;  // force below which the motors are silent
 
   explicit ForceRumble(double cap_n) : cap_n_(cap_n) {}
 
@@ -33,7 +33,7 @@ class ForceRumble {
 
  private:
   double cap_n_;
-  std::array<double, kWindow> before_n_{};  // forces in the last steps
+  std::array<double, kWindow> before_n_{};  // forces of the last steps
   std::size_t oldest_ = 0;
   std::int64_t shakes_until_ns_ = 0;
 };

@@ -18,7 +18,7 @@ namespace afm::haptics {
 namespace {
 
 constexpr auto kPollPause = std::chrono::milliseconds(4);
-constexpr double kDeadZone = 0.12;  // range of a released stick
+constexpr double kDeadZone = 0.12;  // deflection below which a stick counts as released
 constexpr double kFastestPlacedMPerS = 0.30;
 constexpr std::int64_t kRepeatNs = 30'000'000;  // refresh interval of a lasting rumble
 constexpr double kAudible = 0.02;               // smallest audible change of the hum
@@ -51,7 +51,7 @@ core::Result<std::vector<std::unique_ptr<GamepadPort>>> open_all(const SdlFuncti
 
 double beyond_dead_zone(double stick) {
   const double share = std::max(0.0, std::abs(stick) - kDeadZone) / (1.0 - kDeadZone);
-  return std::copysign(share * share, stick);  // fine near the middle
+  return std::copysign(share * share, stick);  // finer control near the middle
 }
 
 glm::dvec3 within_reach(const glm::dvec3& aim_m) {

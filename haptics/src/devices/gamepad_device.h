@@ -43,7 +43,7 @@ class GamepadDevice final : public HapticDevice {
   static constexpr double kFastestMPerS = 0.10;  // largest speed of a game controller's aim
   static constexpr double kReachM = 0.060;       // range of a joystick's aim, in each direction
 
-  // Message if there is no gamepad, with the command that grants access to one.
+  // Message without a gamepad, with the command that grants access to one.
   static constexpr const char* kNone =
       "none is plugged in, or permission is denied; in that case: sudo usermod -aG input \"$(id -un)\", then log in "
       "again";

@@ -12,7 +12,7 @@ namespace afm::haptics {
 namespace {
 
 constexpr double kFull = 32767.0;
-constexpr int kStickAxis = 0;  // joystick: axis 0 is right, axis 1 towards the user
+constexpr int kStickAxis = 0;  // first axis of a joystick: axis 0 is right, axis 1 towards the user
 constexpr Uint8 kTrigger = 0;
 
 double share_of(Sint16 value) { return std::max(-1.0, static_cast<double>(value) / kFull); }

@@ -28,7 +28,7 @@ class GamepadPort {
 
   // Polls SDL; false once the device is unplugged.
   bool update();
-  std::array<double, 3> sticks() const;  // right, up, towards the user, -1 to 1
+  std::array<double, 3> sticks() const;  // positions to the right, up and towards the user, -1 to 1
   bool turn_on() const;
 
   // Rumbles until the next call, for at most GamepadDevice::kRumbleMs.
@@ -46,7 +46,7 @@ class GamepadPort {
   SdlFunctions sdl_;
   GamepadDevice::Facts facts_;
   SDL_GameController* controller_ = nullptr;  // null for a joystick
-  SDL_Joystick* joystick_ = nullptr;          // the controller's own, or a plain joystick
+  SDL_Joystick* joystick_ = nullptr;          // joystick of the controller, or a plain joystick
   SDL_Haptic* haptic_ = nullptr;
   SDL_HapticEffect effect_{};
   int effect_id_ = -1;

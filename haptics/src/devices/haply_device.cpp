@@ -27,7 +27,7 @@ namespace {
 constexpr auto kFirstPlacePatience = std::chrono::seconds(2);
 constexpr auto kReceivePatience = std::chrono::milliseconds(2);
 constexpr auto kPartPatience = std::chrono::milliseconds(200);  // twice the time the link needs to send and disconnect
-constexpr std::int64_t kComplaintNs = 1'000'000'000;            // between two lines about an unsteady service
+constexpr std::int64_t kComplaintNs = 1'000'000'000;            // interval of log lines about an unsteady service
 
 // The service reports no limits. Force: what careful drivers give a hand (Isaac Lab clips at 2 N). Stiffness: that of a
 // Touch. Workspace: the part of the reach in front of the arm that every Inverse3 has, around the position (0, -0.12,
@@ -37,7 +37,7 @@ DeviceSpec arm_spec(const HaplyName& arm) {
   struct Type {
     std::string_view family;
     std::string_view name;
-    double share;  // share of an Inverse3's force
+    double share;  // share of an Inverse3's force that this arm gets
   };
   constexpr Type kTypes[] = {
       {"inverse3", "Inverse3", 1.0}, {"inverse3x", "Inverse3x", 1.0}, {"minverse", "Minverse", 0.5}};
@@ -137,7 +137,7 @@ void HaplyDevice::exchange() {
   force_ns_ = heard_ns_ = clock_.now_ns();
   fade_.lose();
   bool silent = false;
-  bool owed = false;  // the service waits for a force
+  bool owed = false;  // true: the service waits for a force
   bool first_message = true;
   WaitingStates waiting(wanted_);
   while (!link_->ended() && !closing_.load()) {
@@ -207,7 +207,7 @@ void HaplyDevice::list(const std::string& message) {
                                              : fmt::format("only {} is used", core::printable_line(wanted_))));
 }
 
-// With the type that the device itself named.
+// The name with the type reported by the device itself.
 HaplyName HaplyDevice::typed(const HaplyName& arm) const {
   const auto& arms = inventory_.arms;
   const auto found = std::find_if(arms.begin(), arms.end(), [&](const HaplyName& named) { return named.id == arm.id; });

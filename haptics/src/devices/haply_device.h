@@ -22,7 +22,7 @@ class HaplyLink;
 
 inline constexpr std::uint16_t kHaplyServicePort = 10001;  // port of the manufacturer's service on this machine
 inline constexpr const char* kHaplyPortVariable = "TOUCHAFM_HAPLY_PORT";
-inline constexpr const char* kHaplyDeviceVariable = "TOUCHAFM_HAPLY_DEVICE";  // id of the arm, if there are several
+inline constexpr const char* kHaplyDeviceVariable = "TOUCHAFM_HAPLY_DEVICE";  // variable with the id of the arm
 
 // Haply Inverse3, Inverse3x or Minverse, through the Inverse Service that the manufacturer's set-up starts on this
 // machine. One thread talks to the service, one message in each direction about every millisecond; the servo reads the
@@ -48,7 +48,7 @@ class HaplyDevice final : public HapticDevice {
   // Devices that the service lists; starts nothing.
   static core::Result<HaplyInventory> query(std::uint16_t port = kHaplyServicePort);
 
-  ~HaplyDevice() override;  // sends zero force first
+  ~HaplyDevice() override;  // sends zero force before closing
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
   DeviceSample read(std::int64_t now_ns) noexcept override;
@@ -65,7 +65,7 @@ class HaplyDevice final : public HapticDevice {
   HaplyDevice(const core::Clock& clock, std::uint16_t port, std::unique_ptr<HaplyLink> link, OfferReleasePath offer,
               const std::string& wanted);
 
-  void serve() noexcept;  // starts with the connection in `link_`
+  void serve() noexcept;  // runs the service's thread, beginning with the connection in `link_`
   void exchange();
   void part() noexcept;
   void list(const std::string& message);
@@ -84,8 +84,8 @@ class HaplyDevice final : public HapticDevice {
   core::LatestValue<TimedForce> commands_;
   std::atomic<bool> closing_{false};
   std::atomic<bool> exchanging_{true};  // false once the connection has ended with zero force
-  std::atomic<bool> released_{true};    // no force sent since the last zero
-  HaplyName first_;                     // arm that was taken; constant once known_ is set
+  std::atomic<bool> released_{true};    // true: no force sent since the last zero
+  HaplyName first_;                     // arm in use; constant once known_ is set
   std::atomic<bool> known_{false};
 
   // servo's thread
@@ -93,15 +93,15 @@ class HaplyDevice final : public HapticDevice {
 
   // service's thread
   std::string wanted_;  // id of the arm; empty until the first one is known
-  HaplyName arm_;       // arm whose position the connection has; empty: none yet
+  HaplyName arm_;       // arm that this connection reports; empty: none yet
   HaplyInventory inventory_;
-  std::string listed_;  // newest list of devices in the log
+  std::string listed_;  // newest list of devices written to the log
   TimedForce command_;
   std::int64_t force_ns_ = 0;
   std::int64_t heard_ns_ = 0;
   std::int64_t complained_ns_ = 0;
   CommandFade fade_;
-  DriverThread thread_;  // last member: it uses all the others
+  DriverThread thread_;  // last member, because the thread uses all the others
 };
 
 // Entry for the registry.

@@ -33,11 +33,11 @@ constexpr auto kLeavePatience = std::chrono::milliseconds(100);
 struct HaplyLink::Socket {
   boost::asio::io_context context;
   std::optional<Stream> stream;
-  std::mutex changing;  // guards `stream` and `interrupted` against interrupt()
+  std::mutex changing;  // guard of `stream` and `interrupted` against interrupt()
   bool interrupted = false;
 
   boost::beast::flat_buffer incoming;
-  bool reading = false;  // a read is pending, possibly across calls of receive()
+  bool reading = false;  // true: a read is pending, possibly across calls of receive()
   bool ended = true;
 
   // Runs pending operations until `done`. Returns false if that takes longer than `patience`.
@@ -117,7 +117,7 @@ core::Result<void> HaplyLink::connect(std::uint16_t port) {
       socket.finish([&](auto done) { tcp_socket.async_connect(service, std::move(done)); }, kHandshakePatience);
   if (error) return refused(error);
   error = tcp_socket.set_option(tcp::no_delay(true), error);
-  socket.stream->read_message_max(0);  // read_on() has its own limit
+  socket.stream->read_message_max(0);  // no limit by the library, because read_on() has its own
   socket.stream->text(true);
   const std::string host = fmt::format("localhost:{}", port);
   error =
@@ -182,7 +182,7 @@ std::string text_frame(std::string_view text) {
     frame += static_cast<char>(text.size() >> 8U);
     frame += static_cast<char>(text.size() & 0xFFU);
   }
-  frame.append(4, '\0');  // masking key
+  frame.append(4, '\0');  // masking key of zeros
   frame += text;
   return frame;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using json = nlohmann::json;
 
-constexpr std::size_t kLongestId = 256;  // limit that keeps every message small; the service's ids have four digits
+constexpr std::size_t kLongestId = 256;  // bound that keeps every message small; the service's ids have four digits
 constexpr std::size_t kLongestWord = 40;
 constexpr std::size_t kMostListed = 16;
 
@@ -23,7 +23,7 @@ constexpr std::size_t kMostListed = 16;
 constexpr const char* kArms[] = {"inverse3", "inverse3x", "minverse"};
 constexpr const char* kGrips[] = {"wireless_verse_grip", "custom_verse_grip", "verse_grip"};
 
-// Member of an object, or null, also for other values.
+// Member of an object; null if there is none, or for a value of another type.
 const json& member(const json& value, const char* name) {
   static const json kNull;
   if (!value.is_object()) return kNull;
@@ -58,7 +58,7 @@ std::optional<HaplyState> state_of(const char* family, const json& arm, std::str
   return state;
 }
 
-// The type that the device itself names, else its list.
+// The type reported by the device itself, or else the name of its list.
 HaplyName name_of(const std::string& family, const json& device) {
   const json& type = member(member(device, "config"), "type");
   const std::string word = type.is_string() ? type.get<std::string>() : family;

@@ -51,7 +51,7 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-// 0 for what is no number.
+// Number in a text; 0 for anything else.
 unsigned number(std::string_view text, int base) {
   unsigned value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value, base);
@@ -62,7 +62,7 @@ UsbNumbers usb_numbers(const fs::path& device) {
   return {number(first_line(device / "idVendor"), 16), number(first_line(device / "idProduct"), 16)};
 }
 
-// HID_ID=0003:00002988:00000304 of the HID core.
+// USB numbers from a line of the HID core, HID_ID=0003:00002988:00000304.
 UsbNumbers hid_numbers(const fs::path& uevent) {
   constexpr std::string_view kKey = "HID_ID=";
   std::ifstream stream(uevent);
@@ -108,7 +108,7 @@ HapticPort port_at(const fs::path& root, const std::string& path, HapticBus bus,
           .group = group_of(file)};
 }
 
-// "/dev/hidraw3 (Touch, a HID device)"
+// Text of a port: "/dev/hidraw3 (Touch, a HID device)".
 std::string text_of(const HapticPort& port) {
   if (port.device.empty()) return port.path;
   return fmt::format("{} ({}{})", port.path, port.device, port.bus == HapticBus::Hid ? ", a HID device" : "");

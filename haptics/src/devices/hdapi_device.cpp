@@ -61,7 +61,7 @@ core::Result<void> HdapiDevice::start(Supervision supervision) {
   // keeps the driver's own clamp behind ours
   hd_.enable(hdapi::kForceClamping);
   hd_.set_scheduler_rate(1'000'000'000 / kSchedulerPeriodNs);
-  hdapi::take_newest_error(hd_);  // neither setting is vital
+  hdapi::take_newest_error(hd_);  // errors of both settings, neither of them vital
 
   // inside a frame, a device without this property would look like a failed one
   std::array<double, hdapi::kRoomForValues> heat{};

@@ -103,7 +103,7 @@ class HdapiDevice final : public HapticDevice {
   std::atomic<std::uint32_t> error_code_{0};  // cause of the health; 0: not an error of the library
   std::atomic<bool> output_cut_{false};       // output cut by the supervisor
   std::atomic<bool> closing_{false};
-  std::atomic<bool> released_{false};  // zero force sent since closing began
+  std::atomic<bool> released_{false};  // true: zero force sent since closing began
 
   // scheduler's thread
   DriverFrame frame_;

@@ -25,7 +25,7 @@ HdapiHealth health_after(std::uint32_t error_code) noexcept {
 }
 
 std::optional<std::int64_t> recovery_ns(HdapiHealth fault) noexcept {
-  constexpr std::int64_t kShortNs = 200'000'000;  // the driver switches its amplifiers off and on again
+  constexpr std::int64_t kShortNs = 200'000'000;  // time in which the driver switches its amplifiers off and on again
   constexpr std::int64_t kCoolingNs = 10'000'000'000;
   switch (fault) {
     case HdapiHealth::ForceExceeded:

@@ -21,7 +21,7 @@ enum class HdapiHealth : std::uint32_t {
   ImplausiblePosition,  // NaN, far outside the workspace, or a leap
   SchedulerStalled,     // no callback for HdapiDevice::kStallNs
   ConnectionLost,
-  DeviceFault,  // and all errors without a name here
+  DeviceFault,  // device fault, and all errors without a name here
 };
 
 // State after an error of the library (not 0).

@@ -7,7 +7,7 @@ namespace afm::haptics {
 
 namespace {
 
-// 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
+// Names of the library: 3.4 drives the Touch (USB, Ethernet), 3.0 the Omni (FireWire).
 constexpr const char* kLibraryNames[] = {"libHD.so.3.4", "libHD.so.3.0", "libHD.so"};
 
 // Reason for a refusal; empty if all functions were found.

@@ -11,8 +11,8 @@
 // of the vendor is used, and none may enter this tree.
 namespace afm::haptics {
 
-using HdapiHandle = std::uint32_t;           // device
-using HdapiSchedulerHandle = unsigned long;  // scheduled callback
+using HdapiHandle = std::uint32_t;           // handle of a device
+using HdapiSchedulerHandle = unsigned long;  // handle of a scheduled callback
 using HdapiCallback = std::uint32_t (*)(void*);
 
 // Newest entry of the library's error stack. Returned by value in two registers.
@@ -26,7 +26,7 @@ static_assert(sizeof(HdapiError) == 12);
 // Functions of the library used by TouchAFM. Position and force belong to the scheduler's thread, between begin_frame()
 // and end_frame(); properties may be read from any thread.
 struct HdapiFunctions {
-  HdapiHandle (*init_device)(const char* name) = nullptr;  // null: the default device
+  HdapiHandle (*init_device)(const char* name) = nullptr;  // `name` null: the default device
   void (*disable_device)(HdapiHandle device) = nullptr;
   void (*make_current_device)(HdapiHandle device) = nullptr;
   void (*begin_frame)(HdapiHandle device) = nullptr;

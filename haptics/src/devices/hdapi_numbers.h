@@ -28,12 +28,12 @@ inline constexpr std::uint32_t kSerialNumber = 0x2504;  // text
 inline constexpr std::uint32_t kMaxWorkspace = 0x2550;  // six doubles: smallest x, y, z, largest x, y, z
 inline constexpr std::uint32_t kUsableWorkspace = 0x2551;
 inline constexpr std::uint32_t kCalibrationStyle = 0x2555;  // one integer, one bit per style
-inline constexpr std::uint32_t kNominalStiffness = 0x2602;  // N/mm
+inline constexpr std::uint32_t kNominalStiffness = 0x2602;  // one double, N/mm
 inline constexpr std::uint32_t kNominalForce = 0x2603;
 inline constexpr std::uint32_t kNominalContinuousForce = 0x2604;
 inline constexpr std::uint32_t kMotorTemperature = 0x2605;   // one double per motor, 0 cold to 1 too hot
-inline constexpr std::uint32_t kVelocityLimit = 0x2606;      // mm/s
-inline constexpr std::uint32_t kForceImpulseLimit = 0x2607;  // N/ms
+inline constexpr std::uint32_t kVelocityLimit = 0x2606;      // one double, mm/s
+inline constexpr std::uint32_t kForceImpulseLimit = 0x2607;  // one double, N/ms
 inline constexpr std::uint32_t kForce = 0x2700;              // three doubles
 
 // capabilities

@@ -17,7 +17,7 @@ namespace afm::haptics::hdapi {
 
 namespace {
 
-constexpr int kMostErrors = 64;  // a stack that never empties means a broken library
+constexpr int kMostErrors = 64;  // limit that detects a broken library, whose stack never empties
 constexpr int kMostRetries = 10;
 constexpr auto kRetryPause = std::chrono::milliseconds(20);
 constexpr double kMillimetre = 1e-3;
@@ -88,7 +88,7 @@ std::string error_text(const HdapiFunctions& hd, std::uint32_t code) {
 
 core::Result<HdapiHandle> take_device(const HdapiFunctions& hd, const std::string& name) {
   struct Candidate {
-    const char* name;  // null: the library's own default
+    const char* name;  // null: the library's own default device
     std::string said;
   };
   // some drivers know only one of the two defaults

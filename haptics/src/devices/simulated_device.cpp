@@ -12,7 +12,7 @@ namespace afm::haptics {
 
 namespace {
 
-// 0 to 1 with no velocity or acceleration at either end (Flash & Hogan 1985).
+// Path from 0 to 1 with no velocity or acceleration at either end (Flash & Hogan 1985).
 double minimum_jerk(double t) { return t * t * t * (10.0 + t * (6.0 * t - 15.0)); }
 
 }  // namespace

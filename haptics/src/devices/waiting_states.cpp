@@ -13,7 +13,7 @@ WaitingStates::Taken WaitingStates::take(const std::function<std::optional<std::
     taken.asked = true;
     if (auto state = parse_haply_state(*message, wanted_)) last_ = std::move(state);
     if (last) return taken;
-    last = late();  // one last read, or a slow thread would consider every state outdated
+    last = late();  // final read, or a slow thread would consider every state outdated
   }
   taken.newest = std::exchange(last_, std::nullopt);
   return taken;

@@ -15,15 +15,15 @@ namespace afm::haptics {
 // connection, one thread.
 class WaitingStates {
  public:
-  // Only states of the arm with the id `wanted` count; empty: of the first one.
+  // Accepts only states of the arm with the id `wanted`; empty: of the first arm.
   explicit WaitingStates(std::string wanted = {}) : wanted_(std::move(wanted)) {}
 
-  // From now on only states of this arm count: a force must not move to another hand.
+  // Restricts later states to this arm: a force must not move to another hand.
   void keep_to(const std::string& id) { wanted_ = id; }
 
   struct Taken {
-    bool asked = false;                // the service has sent something, and waits for a force
-    std::optional<HaplyState> newest;  // last in the queue; empty while more are queued, or for invalid bytes
+    bool asked = false;                // true: the service has sent something and waits for a force
+    std::optional<HaplyState> newest;  // last state in the queue; empty while more are queued, or for invalid bytes
   };
 
   // `receive` returns the next message, or nothing after its patience, which only the first call may use. `late`
@@ -32,7 +32,7 @@ class WaitingStates {
 
  private:
   std::string wanted_;
-  std::optional<HaplyState> last_;  // not the last in the queue
+  std::optional<HaplyState> last_;  // newest state so far that was not the last in the queue
 };
 
 }  // namespace afm::haptics

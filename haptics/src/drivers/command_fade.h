@@ -33,7 +33,7 @@ class CommandFade {
   void lose() noexcept { trust_ns_ = 0; }
 
  private:
-  std::int64_t trust_ns_ = 0;  // 0: command ignored; kReturnNs: command applied fully
+  std::int64_t trust_ns_ = 0;  // time of regained trust; 0: command ignored; kReturnNs: command applied fully
 };
 
 }  // namespace afm::haptics

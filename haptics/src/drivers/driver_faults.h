@@ -53,7 +53,7 @@ class ToldHealth {
 
  private:
   Health newest_{};                                                        // first enumerator: not started
-  std::array<std::int64_t, static_cast<std::size_t>(kLast) + 1> at_ns_{};  // time of each line
+  std::array<std::int64_t, static_cast<std::size_t>(kLast) + 1> at_ns_{};  // time of the newest line for each state
 };
 
 }  // namespace afm::haptics

@@ -16,7 +16,7 @@ struct DriverFrame {
   glm::dvec3 position_m{0.0};
   double motor_heat = 0;
   std::uint32_t turn_on = 0;
-  std::uint32_t ready = 0;  // 0: something is wrong, no force may be felt
+  std::uint32_t ready = 0;  // 1: all is well; 0: no force may be felt
 };
 
 // Exchange between the servo and the thread that runs a vendor's driver (docs/decisions/0005). Neither waits for the

@@ -17,7 +17,7 @@ class DriverThread {
   // Starts `body`, which must not throw; returns once the thread has its scheduling, and logs what was refused.
   explicit DriverThread(std::function<void()> body);
 
-  void join();  // nothing if it was not started
+  void join();  // waits for the end of a started thread
 
   bool is_realtime() const noexcept { return grant_.priority > 0; }
 

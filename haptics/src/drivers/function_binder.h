@@ -24,7 +24,7 @@ class FunctionBinder {
     if (function == nullptr && missing_.empty()) missing_ = name;
   }
 
-  // "it lacks the function dhdOpenID"; empty if none is missing.
+  // Reason for a refusal, "it lacks the function dhdOpenID"; empty if no function is missing.
   std::string refusal() const { return missing_.empty() ? std::string() : "it lacks the function " + missing_; }
 
  private:

@@ -25,7 +25,7 @@ struct LibraryAttempt {
 template <class Functions>
 struct LibrarySearch {
   std::optional<Functions> functions;
-  std::vector<LibraryAttempt> attempts;  // in order; the last one is in use if `functions` is set
+  std::vector<LibraryAttempt> attempts;  // attempts in order; the last one is in use if `functions` is set
 };
 
 // Loads only `configured` if it is not empty; otherwise the first of `names` that can be loaded and that `bind`
@@ -34,7 +34,7 @@ struct LibrarySearch {
 std::vector<LibraryAttempt> load_first(std::span<const char* const> names, const std::string& configured,
                                        const std::function<std::string(void* library)>& bind);
 
-// The same for a table of functions, which `bind_all` fills.
+// Searches in this way for a table of functions, which `bind_all` fills.
 template <class Functions>
 LibrarySearch<Functions> search_library(std::span<const char* const> names, const std::string& configured,
                                         std::string (*bind_all)(void* library, Functions& functions)) {

@@ -19,9 +19,9 @@ namespace {
 constexpr auto kSupervisionPeriod = std::chrono::milliseconds(5);
 constexpr auto kFirstPositionPatience = std::chrono::seconds(1);
 constexpr std::int64_t kSameSaturationNs = 10'000'000'000;
-constexpr int kTurnOnButton = 0;  // the only one of an omega, the middle one of a Falcon
+constexpr int kTurnOnButton = 0;  // only button of an omega, middle button of a Falcon
 
-// Passes on what a set-up without which the device can still be used was refused.
+// Logs a refused part of the set-up that the device can do without.
 void note(const DeviceSpec& spec, const std::string& what, const DhdFunctions& dhd, int result) {
   if (result >= 0) return;
   core::log_line(fmt::format("{}: {}: {}", spec.name, what, dhd::error_text(dhd, dhd.get_last_error())));

@@ -42,7 +42,7 @@ class DhdDevice final : public HapticDevice {
   static constexpr std::int64_t kPeriodNs = 1'000'000;
   static constexpr std::int64_t kStallNs = 10'000'000;
   static constexpr std::int64_t kWatchdogNs = 20'000'000;
-  static constexpr std::int64_t kStatusNs = 10'000'000;     // between two readings of the status
+  static constexpr std::int64_t kStatusNs = 10'000'000;     // time between two readings of the status
   static constexpr std::int64_t kForceModeNs = 50'000'000;  // time within which the device must switch its force on
 
   // Caller of run_cycle() and supervise(): the device's own threads, or a test.
@@ -96,7 +96,7 @@ class DhdDevice final : public HapticDevice {
   DhdHealth own_health(std::int64_t now_ns) const noexcept;
   void release() noexcept;
 
-  bool cut_force() noexcept;  // any thread; false: the library refused
+  bool cut_force() noexcept;  // callable from any thread; false: the library refused
 
   DhdFunctions dhd_;
   const core::Clock& clock_;
@@ -106,21 +106,21 @@ class DhdDevice final : public HapticDevice {
   // shared by the threads
   DriverMailbox mailbox_{kStallNs};
   std::atomic<bool> called_{false};
-  std::atomic<std::int64_t> last_fresh_ns_{0};  // newest position that the device itself gave
+  std::atomic<std::int64_t> last_fresh_ns_{0};  // time of the newest position from the device itself
   std::atomic<DhdHealth> health_{DhdHealth::Starting};
   std::atomic<int> error_{0};            // cause of the health; 0: not an error of the library
-  std::atomic<bool> output_cut_{false};  // cut by the supervisor
-  std::atomic<bool> saturated_{false};   // the motors gave less than the force
+  std::atomic<bool> output_cut_{false};  // true: cut by the supervisor
+  std::atomic<bool> saturated_{false};   // true: the motors gave less than the requested force
   std::atomic<bool> closing_{false};
-  std::atomic<bool> released_{false};  // the driver's thread has ended with zero force
+  std::atomic<bool> released_{false};  // true: the driver's thread has ended with zero force
 
   // driver's thread
   DriverFrame frame_;
   PlaceFilter places_;
   HeldFault<DhdHealth> fault_;
-  DhdHealth state_ = DhdHealth::Starting;  // by the device's status
-  std::optional<DhdHealth> switched_off_;  // by the user at the device
-  bool passive_ = true;                    // without power or in reset mode: no current flows
+  DhdHealth state_ = DhdHealth::Starting;  // health by the device's status
+  std::optional<DhdHealth> switched_off_;  // health after the user switched the force off at the device
+  bool passive_ = true;                    // true: without power or in reset mode, where no current flows
   Output output_ = Output::Unknown;
   std::int64_t cycle_ns_ = 0;
   std::int64_t status_ns_ = 0;

@@ -17,13 +17,13 @@ enum class DhdHealth : std::uint32_t {
   ForceButtonOff,  // force switched off at the device
   DeadManReleased,
   VelocityExceeded,
-  WatchdogExpired,  // the device had no new force for DhdDevice::kWatchdogNs
-  ForceRefused,     // the device left force mode, or takes no force, without a reason
+  WatchdogExpired,  // the device received no force for DhdDevice::kWatchdogNs
+  ForceRefused,     // the device left force mode, or accepts no force, without a reason
   ButtonFailed,
   ImplausiblePosition,  // NaN, far outside the workspace, or a leap
   Stalled,              // no new position for DhdDevice::kStallNs
   ConnectionLost,
-  DeviceFault,  // and all errors without a name here
+  DeviceFault,  // device fault, and all errors without a name here
 };
 
 // State after an error of the library.

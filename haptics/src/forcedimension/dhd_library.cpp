@@ -9,7 +9,7 @@ namespace afm::haptics {
 
 namespace {
 
-// The SDK is an archive without a fixed place; its shared libraries have these names.
+// Names of the SDK's shared libraries; the SDK is an archive without a fixed place.
 constexpr const char* kDhdLibraryNames[] = {"libdhd.so.3", "libdhd.so", "libdrd.so.3", "libdrd.so"};
 constexpr int kKnownVersion = 3;
 

@@ -15,7 +15,7 @@
 // Positions are in metres, forces in N. The library's frame is x towards the user, y right, z up (CHAI3D, HAPI).
 namespace afm::haptics {
 
-using DhdId = char;  // open device
+using DhdId = char;  // number of an open device
 
 // Functions of the library used by TouchAFM. All may be called from any thread; those that return an int return -1 on
 // failure, and get_last_error() then has the reason, separately for each thread.
@@ -33,23 +33,23 @@ struct DhdFunctions {
   bool (*has_gripper)(DhdId device) = nullptr;
   int (*get_effector_mass)(double* kilograms, DhdId device) = nullptr;
 
-  int (*get_status)(int* values, DhdId device) = nullptr;                        // up to dhd::kRoomForStatus of them
-  int (*get_position)(double* x, double* y, double* z, DhdId device) = nullptr;  // 0, or dhd::kTimeGuard
-  int (*get_button)(int index, DhdId device) = nullptr;                          // 1: pressed
+  int (*get_status)(int* values, DhdId device) = nullptr;                        // writes dhd::kRoomForStatus at most
+  int (*get_position)(double* x, double* y, double* z, DhdId device) = nullptr;  // returns 0 or dhd::kTimeGuard
+  int (*get_button)(int index, DhdId device) = nullptr;                          // returns 1 if pressed
   // Force, torque and force of the gripper, the last two always 0 here. 0, or dhd::kMotorSaturated.
   int (*set_force)(double fx, double fy, double fz, double tx, double ty, double tz, double gripper,
                    DhdId device) = nullptr;
-  int (*enable_force)(unsigned char on, DhdId device) = nullptr;  // off: brake mode
-  int (*set_brakes)(int on, DhdId device) = nullptr;              // off: idle mode, the arm falls
+  int (*enable_force)(unsigned char on, DhdId device) = nullptr;  // `on` 0: brake mode
+  int (*set_brakes)(int on, DhdId device) = nullptr;              // `on` 0: idle mode, the arm falls
   int (*set_gravity_compensation)(int on, DhdId device) = nullptr;
-  int (*emulate_button)(unsigned char on, DhdId device) = nullptr;  // closing the gripper is button 0
+  int (*emulate_button)(unsigned char on, DhdId device) = nullptr;  // closing the gripper acts as button 0
 
   // expert mode, which belongs to the whole library
   int (*enable_expert_mode)() = nullptr;
   int (*disable_expert_mode)() = nullptr;
   int (*set_watchdog)(unsigned char eighths_of_a_millisecond, DhdId device) = nullptr;
 
-  int (*set_max_force)(double newtons, DhdId device) = nullptr;  // null: a library before it had one
+  int (*set_max_force)(double newtons, DhdId device) = nullptr;  // null: the library is older than this function
 };
 
 using DhdSearch = LibrarySearch<DhdFunctions>;
@@ -65,18 +65,18 @@ inline constexpr int kCommunicationError = 2;
 inline constexpr int kNoDriver = 4;
 inline constexpr int kNoDevice = 5;
 inline constexpr int kTimeout = 7;
-inline constexpr int kGeometry = 8;  // no place of the arm has these joint angles
+inline constexpr int kGeometry = 8;  // joint angles that no position of the arm has
 inline constexpr int kNotReady = 12;
 inline constexpr int kInUse = 20;
 
 // results that are no failures
 inline constexpr int kTimeGuard = 1;       // earlier position: the device was not queried again
-inline constexpr int kMotorSaturated = 2;  // the device gives less force than it should
+inline constexpr int kMotorSaturated = 2;  // less force than requested, because a motor is saturated
 
 // indices of get_status(); 1: yes, 0: no
 inline constexpr int kPowered = 0;
 inline constexpr int kConnected = 1;
-inline constexpr int kReset = 3;  // waits to be calibrated
+inline constexpr int kReset = 3;  // the device waits to be calibrated
 inline constexpr int kForceMode = 5;
 inline constexpr int kFailed = 9;
 inline constexpr int kForceOffCause = 14;

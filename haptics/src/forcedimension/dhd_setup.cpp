@@ -30,18 +30,18 @@ constexpr Model kModels[] = {
     {104, "sigma.7", 12.0, 0.075},   {105, "sigma.7", 12.0, 0.075},     {108, "lambda.7", 12.0, 0.1125},
     {109, "lambda.7", 12.0, 0.1125}, {60, "Novint Falcon", 8.0, 0.040},
 };
-constexpr Model kUnknownModel{0, "unknown Force Dimension device", 8.0, 0.040};  // the weakest row
+constexpr Model kUnknownModel{0, "unknown Force Dimension device", 8.0, 0.040};  // weakest values of all rows
 
-// Not from a source: the rating of the weakest pen that TouchAFM drives, so that a force that lasts is derated early.
+// Assumed: the rating of the weakest pen that TouchAFM drives, so that a lasting force is derated early.
 constexpr double kContinuousForceN = 0.88;
 
-// Largest stiffness behind a mailbox at 1 kHz (docs/decisions/0005), not what the device could give at 4 kHz.
+// Largest stiffness behind a mailbox at 1 kHz (docs/decisions/0005), not that of a device's own loop at 4 kHz.
 constexpr double kStiffnessNPerM = 400.0;
 
 // Share of the workspace below the sample's surface; a stroke of 50 mm and the recoil need the rest.
 constexpr double kContactShare = 1.0 / 3.0;
 
-constexpr unsigned short kNoSerialNumber = 0xFFFF;  // every Falcon's (sawForceDimensionSDK)
+constexpr unsigned short kNoSerialNumber = 0xFFFF;  // serial number of every Falcon (sawForceDimensionSDK)
 
 struct Wanted {
   std::optional<int> index;

@@ -48,7 +48,7 @@ core::Result<CommonScale> scales_of(const scene::SharedModel& model,
   return common;
 }
 
-// Null without a map.
+// Map of the law, null without a map.
 std::unique_ptr<const scene::SharedLawMap> map_of(const scene::SharedModel& model) {
   return model.law_map.columns > 0 ? std::make_unique<const scene::SharedLawMap>(model.law_map) : nullptr;
 }
@@ -243,7 +243,7 @@ ServoLoop::Wanted ServoLoop::meet_sample(double elapsed_s) noexcept {
   return wanted;
 }
 
-// Particles are put elsewhere without force alone, so that none jumps at a tip that is felt; an order that comes too
+// Puts particles elsewhere, only without force, so that none jumps at a tip that is felt; an order that comes too
 // early is dropped. A look needs only a tip that is off them; one with a load that is not gentle moves them.
 void ServoLoop::put_particles(double elapsed_s) noexcept {
   if (particles() == nullptr || model_ == nullptr) return;
@@ -331,7 +331,7 @@ void ServoLoop::select_material(std::size_t material, scene::ScaleMode mode) noe
   guide_.reset();
   if (particles() != nullptr) {
     particles()->drop();
-    particles()->end_sweep();  // a session begins with particles that rest
+    particles()->end_sweep();  // particles at rest at the beginning of a session
   }
   if (marks_) marks_->lift();
   model_->use(mode, particles(), marks_.get());

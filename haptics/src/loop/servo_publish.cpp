@@ -20,7 +20,7 @@ scene::Tip tip_of(const Touch& touch) {
           .sample_deformation_m = touch.response.sample_deformation.si};
 }
 
-// Force of the groove after the tick, which is none once the force has been dropped.
+// Force of the groove after the tick; zero once the force has been dropped.
 std::array<double, 2> guide_n(FeltParticles* particles) {
   if (particles == nullptr) return {};
   const glm::dvec2& force_n = particles->groove().force_n();
@@ -122,7 +122,7 @@ void ServoLoop::publish(std::int64_t now_ns, std::uint32_t wake_us) noexcept {
                                 .settings = swap_->settings()});
 }
 
-// Marks are put elsewhere without force alone, as particles are.
+// Restores marks, only without force, as for particles.
 void ServoLoop::put_marks() noexcept {
   if (!marks_ || model_ == nullptr || !governor_.released()) return;
   if (heard_.put_back && marks_->put_back()) {
@@ -137,7 +137,7 @@ scene::PushSample ServoLoop::push_sample() const noexcept {
   return particles() != nullptr ? particles()->sample() : scene::PushSample{};
 }
 
-// One tile in each tick: a copy takes a microsecond.
+// Publishes one tile in each tick: a copy takes a microsecond.
 void ServoLoop::publish_marks() noexcept {
   if (const auto tile = marks_->next_tile()) shared_.store(marks_->tiles()[*tile], *tile);
   scene::TipPush push = marks_->push();
@@ -146,7 +146,7 @@ void ServoLoop::publish_marks() noexcept {
   shared_.store(push);
 }
 
-// Only pages that changed.
+// Publishes only the pages that changed.
 void ServoLoop::publish_particles() noexcept {
   scene::TipPush push = particles()->push();
   push.settings = swap_->settings();

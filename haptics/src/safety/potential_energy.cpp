@@ -16,7 +16,7 @@ namespace {
 constexpr double kSpacingM = 1e-4;
 
 struct BranchEnergy {
-  std::vector<double> energy_j;  // zero at the highest node
+  std::vector<double> energy_j;  // energies of the nodes, zero at the highest one
   double stiffness_n_per_m = 0;
 };
 

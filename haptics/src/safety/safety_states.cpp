@@ -16,7 +16,7 @@ struct Reason {
   FaultCode fault;
 };
 
-// Most urgent of all reasons to remove the force.
+// Most urgent of the reasons to remove the force.
 std::optional<Reason> reason_to_fade(const SafetyConditions& conditions) {
   if (conditions.late) return Reason{kQuickFadeNs, FaultCode::LateTick};
   if (conditions.energy_exceeded) return Reason{kQuickFadeNs, FaultCode::EnergyExceeded};

@@ -30,15 +30,15 @@ namespace afm::imaging {
 struct ScanRequest {
   curves::ContactOptions contact;
   OwnSample sample;
-  physics::Length size;  // zero: the size of the drawn sample
+  physics::Length size;  // width of the area; zero: the width of the drawn sample
   std::size_t pixels = 256;
   physics::Length x_centre, y_centre;
   physics::SlowDirection direction = physics::SlowDirection::Down;
   physics::Feedback feedback = physics::Feedback::On;
-  std::vector<std::pair<const physics::ScanField*, double>> settings;  // explicitly given settings, in SI
-  curves::TappingChoice tapping;                                       // mode is contact or tapping
-  std::string amplitude_setpoint;  // in tapping mode: share of the free amplitude, or a length, as typed
-  physics::TipShape tip;           // without radius and second apex, which come from contact and settings
+  std::vector<std::pair<const physics::ScanField*, double>> settings;  // settings given explicitly, in SI
+  curves::TappingChoice tapping;                                       // tapping; the mode is contact or tapping
+  std::string amplitude_setpoint;  // setpoint of tapping mode as typed: fraction of the free amplitude, or a length
+  physics::TipShape tip;           // shape without radius and second apex, which come from contact and settings
   std::uint32_t seed = 1;
   bool show_truth = false;
 };
@@ -51,7 +51,7 @@ inline constexpr std::array kDirections{DirectionName{"down", physics::SlowDirec
                                         DirectionName{"up", physics::SlowDirection::Up}};
 static_assert(core::has_row_for_each(kDirections, &DirectionName::direction));
 
-// Legal values of a request.
+// Legal values of a request: number of pixels, sizes, places, half angles.
 inline constexpr std::size_t kFewestPixels = 2;
 inline constexpr curves::QuantityRange<double> kScanSizesM{1e-10, 1e-4}, kScanPlacesM{-1e-4, 1e-4},
     kTipAnglesRad{std::numbers::pi / 180.0, std::numbers::pi * 0.45};
@@ -67,7 +67,7 @@ struct Scan {
   physics::ScanImage image;
   physics::ScanSettings settings;
   std::map<physics::ScanArtefact, std::size_t> lines_with;
-  std::optional<physics::TappingDetector> tapping;  // empty: contact mode
+  std::optional<physics::TappingDetector> tapping;  // detector of tapping mode; empty: contact mode
   double time_s = 0;
   physics::Scanner::Surface surface{};  // surface that the apex would trace without any artefact
 };
@@ -79,7 +79,7 @@ core::Result<Scan> take_scan(const ScanRequest& request, const std::stop_token& 
 // Settings and figures of every channel in SI, as `touchafm scan --json` prints them.
 nlohmann::json scan_json(const Scan& scan);
 
-// The surface on the image's grid without artefacts: at time zero, so that drift is one.
+// The surface without artefacts on the image's grid, at time zero, because drift is an artefact.
 physics::ScanImage true_image_of(const Scan& scan);
 
 // Keeps one channel. WrongUsage, with all names, if there is none of that name.

@@ -14,17 +14,17 @@ namespace afm::imaging {
 // A sample's surface for the scanner.
 struct ScanSurface {
   physics::Scanner::Surface height_m;  // surface traced by the apex; level beyond the rim, as for the hand
-  double width_m = 0;                  // width of the drawn piece, which is centred on the origin
+  double width_m = 0;                  // width of the drawn sample, which is centred on the origin
   double depth_m = 0;
-  double pull_off_force_n = 0;  // magnitude
+  double pull_off_force_n = 0;  // pull-off force, a magnitude
   double snap_in_m = 0;         // gap at which a free tip snaps in
 };
 
 // A sample of one's own in place of the drawn one: a glTF model with the role "surface", or an image.
 struct OwnSample {
-  std::string file;  // empty: none
+  std::string file;  // name of the file; empty: the drawn sample
   curves::TopographyReading reading;
-  bool is_traced = true;  // an image's heights are those of an apex, as for the hand; false: the sample's own
+  bool is_traced = true;  // true: an image's heights are those of an apex, as for the hand; false: those of the sample
 };
 
 // The sample of a material under a tip. Under a paraboloid: the surface that a hand feels (haptics::SampleSurface of

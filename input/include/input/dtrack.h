@@ -22,17 +22,17 @@ struct DtrackBody {
 
 struct DtrackFlystick {
   DtrackBody body;
-  std::uint32_t buttons = 0;         // trigger first
-  std::array<double, 8> joystick{};  // -1 to 1: right, up
+  std::uint32_t buttons = 0;         // bits of the buttons, the trigger first
+  std::array<double, 8> joystick{};  // deflections from -1 to 1: right, up
 };
 
 // Part of a datagram that is left out. Trivially copyable.
 struct DtrackFault {
   std::string_view line;              // identifier of the line: "6d"; empty: the whole packet
-  std::string_view subject;           // "body", "Flystick"; empty: the whole line
-  std::optional<std::uint32_t> id{};  // its number, if that could be read
-  std::string_view reason;            // as the end of a sentence
-  std::array<char, 72> text{};        // its beginning, printable ASCII, with a final zero
+  std::string_view subject;           // kind of the part: "body", "Flystick"; empty: the whole line
+  std::optional<std::uint32_t> id{};  // number of the part, if it could be read
+  std::string_view reason;            // reason, as the end of a sentence
+  std::array<char, 72> text{};        // beginning of the part's text, printable ASCII, with a final zero
 
   bool same_kind(const DtrackFault& other) const {
     return line == other.line && subject == other.subject && id == other.id && reason == other.reason;
@@ -41,13 +41,13 @@ struct DtrackFault {
 
 struct DtrackFaults {
   std::size_t count = 0;
-  std::array<DtrackFault, 4> first{};  // the first `count` of them
+  std::array<DtrackFault, 4> first{};  // first faults, at most 4 of `count`
 };
 
 // One datagram. Trivially copyable; no number appears twice among the bodies or among the Flysticks.
 struct DtrackFrame {
   std::uint32_t frame = 0;
-  std::uint32_t latency_us = 0;  // from the cameras to sending, from line ts2; 0: unknown
+  std::uint32_t latency_us = 0;  // time from the cameras to sending, from line ts2; 0: unknown
   std::size_t body_count = 0;
   std::array<DtrackBody, 64> bodies{};
   std::size_t flystick_count = 0;

@@ -16,25 +16,25 @@
 
 namespace afm::input {
 
-// Address that a tracker sends to, and the pose of its frame in the room.
+// Address that receives a tracker's packets, and the pose of the tracker's frame in the room.
 struct DtrackSettings {
   std::string address = "127.0.0.1";  // IPv4 address of this machine, or a multicast group, which is joined
   std::uint16_t port = 5000;
   std::uint32_t flystick = 0;
-  glm::dvec3 tracker_origin_m{0.0};  // room_from_tracker, a rigid transform
-  // z up and y towards the wall, as after DTrack's room calibration and in assets/wands/dtrack.toml
+  glm::dvec3 tracker_origin_m{0.0};  // position of the tracker's frame in the room
+  // rotation room_from_tracker: z up and y towards the wall, as after DTrack's room calibration and in the wand file
   glm::dquat room_from_tracker{std::numbers::sqrt2 / 2.0, -std::numbers::sqrt2 / 2.0, 0.0, 0.0};
 };
 
 // Data received so far.
 struct DtrackUpdate {
-  std::int64_t time_ns = 0;  // arrival of the newest valid packet
+  std::int64_t time_ns = 0;  // arrival time of the newest valid packet
   std::uint64_t good_packets = 0;
   std::uint64_t bad_packets = 0;  // packets without a valid frame
   std::uint64_t old_packets = 0;  // frames with a number not above the newest: late, or repeated
   std::uint64_t lost_frames = 0;  // frames missing between the numbers of two frames
   std::uint64_t left_out = 0;     // bodies, Flysticks and lines left out of valid frames
-  DtrackFaults faults{};          // those of the newest packet that has any
+  DtrackFaults faults{};          // faults of the newest packet that has any
   DtrackFrame frame{};
 };
 
@@ -56,7 +56,7 @@ class DtrackSource final : public WandSource {
   // Newest data, for heads and counts; any thread, as long as this object lives.
   DtrackUpdate newest() const { return update_.load().value_or(DtrackUpdate{}); }
 
-  std::uint16_t port() const { return port_; }  // port in use: a free one if 0 was requested
+  std::uint16_t port() const { return port_; }  // port in use, a free one if 0 was requested
 
  private:
   DtrackSource(const DtrackSettings& settings, const core::Clock& clock, core::FileDescriptor socket,
@@ -71,7 +71,7 @@ class DtrackSource final : public WandSource {
   core::FileDescriptor socket_;
   std::uint16_t port_;
   DtrackUpdate now_;
-  std::uint32_t frame_step_ = 0;  // smallest step between frame numbers so far: a tracker may send every second frame
+  std::uint32_t frame_step_ = 0;  // smallest step of frame numbers so far: a tracker may send every second frame
   core::LatestValue<DtrackUpdate> update_;
 };
 

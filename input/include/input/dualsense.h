@@ -13,14 +13,14 @@ namespace afm::input {
 // Report of Sony's DualSense: id 1 with 64 bytes over USB, id 0x31 with 78 bytes and a CRC over Bluetooth. Source:
 // Linux' hid-playstation.c.
 struct DualSenseReport {
-  std::array<std::uint8_t, 2> left_stick{};  // 128 in the middle; right and down are larger
+  std::array<std::uint8_t, 2> left_stick{};  // deflections, 128 in the middle; larger to the right and down
   std::array<std::uint8_t, 2> right_stick{};
   std::array<std::uint8_t, 2> triggers{};
   std::uint8_t sequence = 0;
-  std::array<std::uint8_t, 3> buttons{};  // the low half of the first is the d-pad, 8 at rest
-  std::array<std::int16_t, 3> gyro{};     // raw, in the wand's axes
+  std::array<std::uint8_t, 3> buttons{};  // bits of the buttons; the low half of the first byte is the d-pad, 8 at rest
+  std::array<std::int16_t, 3> gyro{};     // raw rotation rates, in the wand's axes
   std::array<std::int16_t, 3> acceleration{};
-  std::uint32_t ticks = 0;  // in units of 1/3 microsecond
+  std::uint32_t ticks = 0;  // time in units of 1/3 microsecond
 };
 
 std::optional<DualSenseReport> parse_dualsense(Bytes report);

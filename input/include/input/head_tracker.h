@@ -31,13 +31,13 @@ class HeadTracker {
 
  private:
   scene::HeadPose sweet_spot_;
-  scene::HeadPose target_;  // as last predicted
+  scene::HeadPose target_;  // head position last predicted
   scene::HeadPose shown_;
   std::optional<scene::HeadPose> newest_;
   glm::dvec3 velocity_m_per_s_{0.0};
   std::int64_t newest_ns_ = 0;
   std::int64_t shown_ns_ = 0;
-  double tracked_share_ = 0.0;  // 0: at the sweet spot, 1: at the tracked position
+  double tracked_share_ = 0.0;  // share of tracking, from 0 at the sweet spot to 1 at the tracked position
 };
 
 }  // namespace afm::input

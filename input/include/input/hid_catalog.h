@@ -19,7 +19,7 @@ struct HidModel {
   std::uint16_t vendor;
   std::uint16_t product;
   std::string_view name;
-  std::unique_ptr<HidDriver> (*make)();  // null: known not to be a wand
+  std::unique_ptr<HidDriver> (*make)();  // factory of the driver; null: known not to be a wand
 };
 std::span<const HidModel> hid_models();
 
@@ -33,8 +33,8 @@ struct HidIdentity {
 
 struct KnownHid {
   std::string name;
-  std::function<std::unique_ptr<HidDriver>()> make;  // empty: known not to be a wand
-  bool only_stops = false;                           // a pedal that stops the force and does nothing else
+  std::function<std::unique_ptr<HidDriver>()> make;  // factory of the driver; empty: known not to be a wand
+  bool only_stops = false;                           // true: a pedal that stops the force and does nothing else
 };
 
 // Description of a device; empty if it is unknown. A mapping takes precedence over the built-in entry.

@@ -21,15 +21,15 @@ struct HidMapping {
   // not 0.
   struct Axis {
     Quantity quantity = Quantity::Push;
-    int axis = 0;  // 0: x, 1: y, 2: z
+    int axis = 0;  // index of the axis, 0: x, 1: y, 2: z
     std::uint8_t report = 0;
     std::size_t byte = 0;
-    unsigned bit = 0;   // 0 to 7
-    unsigned bits = 8;  // 1 to 32
+    unsigned bit = 0;   // lowest bit of the number, 0 to 7
+    unsigned bits = 8;  // length of the number, 1 to 32 bits
     bool is_signed = false;
     double center = 0.0;
     double scale = 1.0;      // counts at full deflection, per degree per second, or per g; negative: reversed
-    double dead_zone = 0.0;  // 0 to 0.9 of full deflection
+    double dead_zone = 0.0;  // dead zone, 0 to 0.9 of full deflection
   };
   struct Button {
     WandButton button = WandButton::Select;
@@ -45,7 +45,7 @@ struct HidMapping {
   std::vector<Button> buttons;
 };
 
-// Without a gyroscope or accelerometer axis, the cap or stick steers the ray.
+// Driver for a mapping. Without a gyroscope or accelerometer axis, the cap or stick steers the ray.
 std::unique_ptr<HidDriver> mapped_driver(const HidMapping& mapping);
 
 }  // namespace afm::input

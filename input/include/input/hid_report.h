@@ -47,8 +47,8 @@ struct HidInput {
   std::optional<std::uint32_t> buttons;  // bits of WandButton
   std::array<ImuSample, 3> imu;
   std::size_t imu_count = 0;                   // number of samples, evenly spaced since the previous report
-  bool has_gyro = true;                        // imu samples include the gyroscope
-  std::optional<double> yaw_from_forward_rad;  // from a wand that sees a beacon straight ahead
+  bool has_gyro = true;                        // true: imu samples include the gyroscope
+  std::optional<double> yaw_from_forward_rad;  // heading from a wand that sees a beacon straight ahead
 };
 
 // Feature report to request from a device after opening it, `times` times.
@@ -66,7 +66,7 @@ class HidDriver {
   HidDriver& operator=(const HidDriver&) = delete;
   virtual ~HidDriver() = default;
 
-  // Empty: not a report of this device, or damaged.
+  // Interprets a report. Empty: not a report of this device, or damaged.
   virtual std::optional<HidInput> read(Bytes report) = 0;
 
   // True if the cap or the stick steers the ray; otherwise the wand points in its own direction.

@@ -23,7 +23,7 @@ struct HidFinding {
   std::string name;  // name reported by the device, with its numbers: "SpaceMouse Compact (256f:c635)"
   bool is_wand = false;
   bool usable = false;
-  std::string said;  // description, or why it cannot be used and what to do
+  std::string said;  // description, or the reason why it cannot be used with the remedy
 };
 
 // Examines every HID device that the system lists; wands are opened and closed again. Fails if the library cannot be
@@ -57,10 +57,10 @@ class HidSource final : public WandSource {
   HandPlace place_;
   const core::Clock& clock_;
   std::string wanted_;
-  std::vector<std::unique_ptr<HidCandidate>> candidates_;  // wands seen last, by their nodes
-  HidCandidate* followed_ = nullptr;                       // one of them
+  std::vector<std::unique_ptr<HidCandidate>> candidates_;  // wands found in the last search, by their nodes
+  HidCandidate* followed_ = nullptr;                       // wand in use, one of candidates_; null: none
   std::int64_t next_look_ns_ = 0;
-  bool complained_ = false;  // log names the wanted wand as missing
+  bool complained_ = false;  // true: the log names the wanted wand as missing
   std::uint32_t stops_ = 0;
 };
 

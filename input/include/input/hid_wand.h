@@ -42,16 +42,16 @@ class HidWand {
 
   std::unique_ptr<HidDriver> driver_;
   HandPlace place_;
-  double forward_rad_;  // forward direction, about +y from -z
+  double forward_rad_;  // forward direction as an angle about +y from -z
   WandState state_;
   OrientationFilter filter_;
   double heading_offset_rad_ = 0.0;
-  double yaw_rad_ = 0.0;  // steered ray, from straight ahead
+  double yaw_rad_ = 0.0;  // yaw of the steered ray, from straight ahead
   double pitch_rad_ = 0.0;
   std::int64_t steered_ns_ = 0;
   std::int64_t motion_ns_ = 0;
   std::int64_t grabbed_ns_ = 0;
-  bool home_held_ = false;  // second of two quick presses of Grab
+  bool home_held_ = false;  // true: second of two quick presses of Grab
 };
 
 // Speed, -1 to 1, for the deflection of a cap or stick: zero within 10 % of the middle, then exponential, finer near

@@ -13,13 +13,13 @@ namespace afm::input {
 // Report 0x30 of Nintendo's Joy-Cons and Pro controller: 49 bytes every 15 ms with three readings of the motion sensor.
 // Source: Linux' hid-nintendo.c.
 struct JoyConReport {
-  std::array<std::uint8_t, 3> buttons{};                 // right, shared, left
-  std::array<std::array<std::uint16_t, 2>, 2> sticks{};  // left and right; 12 bits, about 2048 in the middle
+  std::array<std::uint8_t, 3> buttons{};                 // bytes of the buttons: right, shared, left
+  std::array<std::array<std::uint16_t, 2>, 2> sticks{};  // left and right stick; 12 bits, about 2048 in the middle
   struct Motion {
-    std::array<std::int16_t, 3> acceleration{};  // 4096 for 1 g; x forward, y left, z up on a left Joy-Con
-    std::array<std::int16_t, 3> gyro{};          // 14.247 for 1 degree per second
+    std::array<std::int16_t, 3> acceleration{};  // raw, 4096 for 1 g; x forward, y left, z up on a left Joy-Con
+    std::array<std::int16_t, 3> gyro{};          // raw, 14.247 for 1 degree per second
   };
-  std::array<Motion, 3> motion{};  // oldest first
+  std::array<Motion, 3> motion{};  // readings, the oldest first
 };
 
 std::optional<JoyConReport> parse_joycon(Bytes report);

@@ -8,7 +8,7 @@
 
 namespace afm::input {
 
-inline constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  // up in the level frame and the room
+inline constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);  // upward direction in the level frame and the room
 
 // Orientation of a wand from its gyroscope and accelerometer: the explicit complementary filter of Mahony, Hamel and
 // Pflimlin (2008), with gravity as its only reference. Tilt is absolute; heading starts at zero and drifts with the
@@ -33,7 +33,7 @@ class OrientationFilter {
   glm::dvec3 bias_{0.0};
   bool started_ = false;
 
-  // over the current observation period
+  // extremes and sums over the current observation period
   glm::dvec3 rate_low_{0.0}, rate_high_{0.0}, rate_sum_{0.0};
   glm::dvec3 pull_low_{0.0}, pull_high_{0.0};
   double watched_s_ = 0.0;

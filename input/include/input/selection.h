@@ -32,7 +32,7 @@ class Selector {
  public:
   struct Result {
     std::optional<std::size_t> hovered;
-    std::optional<std::size_t> chosen;  // set only in the frame of the press
+    std::optional<std::size_t> chosen;  // chosen target, set only in the frame of the press
   };
 
   // Call once per frame; the targets keep their order. A wand that points nowhere neither hovers nor chooses.
@@ -43,7 +43,7 @@ class Selector {
   bool was_pressed_ = false;
 };
 
-// Snapping distance of the bubble ray.
+// Angle to a target's silhouette within which the bubble ray snaps to it.
 inline constexpr double kPickConeRad = 5.0 * 3.14159265358979323846 / 180.0;
 // Twice the noise of a hand at rest (0.5 degrees RMS, tests/input/simulated_user_test.cpp).
 inline constexpr double kStickRad = 1.0 * 3.14159265358979323846 / 180.0;

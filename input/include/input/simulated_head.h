@@ -34,7 +34,7 @@ class SimulatedHead {
   // Returns to the start, and restarts the script.
   void home();
 
-  // Times never decrease. Empty if neither a script nor a step moves the head.
+  // Head at a time; times never decrease. Empty if neither a script nor a step moves the head.
   std::optional<scene::HeadPose> pose(std::int64_t now_ns);
 
   static constexpr double kPaceMPerS = 0.6;
@@ -44,8 +44,8 @@ class SimulatedHead {
 
   scene::HeadPose start_, shown_;
   std::vector<HeadKey> script_;
-  std::optional<std::int64_t> begun_ns_;  // start of the script
-  std::optional<glm::dvec3> target_m_;    // target of the steps
+  std::optional<std::int64_t> begun_ns_;  // time at which the script started
+  std::optional<glm::dvec3> target_m_;    // target set by steps
   std::int64_t shown_ns_ = 0;
 };
 

@@ -15,7 +15,7 @@ namespace afm::input {
 struct HandPath {
   double lift_m = 0.070;
   double push_m = -0.018;
-  double speed_m_per_s = 0.030;  // mean, along each stroke
+  double speed_m_per_s = 0.030;  // mean speed along each stroke
 };
 
 // Handles the wand and the device like a visitor (section 5 of the paper), one material at a time. Continues only when
@@ -42,7 +42,7 @@ class SimulatedPerson {
   void set_normal(const glm::dvec3& normal) { normal_ = normal; }
 
   Step step() const { return step_; }
-  std::int32_t material() const { return material_; }  // material of the procedure; -1 before the first
+  std::int32_t material() const { return material_; }  // material of the procedure; -1 before the first one
   WandState wand(std::int64_t now_ns) const { return wand_.state(now_ns); }
   const scene::HandScript& hand() const { return hand_; }
 

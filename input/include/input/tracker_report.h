@@ -29,9 +29,9 @@ class TrackerReport {
   // Summary of the whole run.
   std::string total() const;
 
-  static constexpr std::int64_t kPatienceNs = 5'000'000'000;   // wait for the first frame, and for the head in them
+  static constexpr std::int64_t kPatienceNs = 5'000'000'000;   // longest wait for a first frame, and for the head in it
   static constexpr std::int64_t kSilenceNs = 1'000'000'000;    // shortest silence worth a line
-  static constexpr std::int64_t kIntervalNs = 10'000'000'000;  // between two lines about losses
+  static constexpr std::int64_t kIntervalNs = 10'000'000'000;  // interval of lines about losses
 
  private:
   std::optional<std::string> change_of_state(std::int64_t now_ns);
@@ -39,7 +39,7 @@ class TrackerReport {
   std::optional<std::string> missing_head(std::int64_t now_ns);
   std::optional<std::string> new_losses(std::int64_t now_ns);
 
-  static constexpr std::size_t kMostFaults = 16;  // named ones; further ones are only counted
+  static constexpr std::size_t kMostFaults = 16;  // largest number of faults named; further ones are only counted
 
   std::string place_;
   std::int64_t began_ns_;
@@ -48,8 +48,8 @@ class TrackerReport {
   std::int64_t reported_ns_ = 0;
   std::vector<DtrackFault> named_;
   std::optional<std::uint32_t> awaited_head_;
-  std::set<std::uint32_t> seen_;  // bodies that have had a pose
-  std::int64_t heard_ns_ = 0;     // first frame
+  std::set<std::uint32_t> seen_;  // numbers of the bodies that have had a pose
+  std::int64_t heard_ns_ = 0;     // time of the first frame
 };
 
 }  // namespace afm::input

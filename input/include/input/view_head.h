@@ -37,8 +37,8 @@ class ViewHead {
   bool doubted_ = false;
   bool tracked_ = false;
   std::int64_t cause_ns_ = 0;    // arrival time of this frame's pose
-  std::int64_t counted_ns_ = 0;  // time of the pose counted last
-  double latency_s_ = 0.03;      // smoothed; initially a guess of two frames
+  std::int64_t counted_ns_ = 0;  // arrival time of the pose counted last
+  double latency_s_ = 0.03;      // smoothed latency; initially a guess of two frames
   std::vector<double> latencies_ms_;
 };
 

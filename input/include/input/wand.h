@@ -11,11 +11,11 @@ namespace afm::input {
 
 // Buttons named by function, whatever their names on the device; the values are bits of WandState::buttons.
 enum class WandButton : std::uint32_t {
-  Select = 1,     // chooses the target of the ray
-  Grab = 2,       // held: the scene moves with the wand
-  Scale = 4,      // held: the wand makes the scene larger and smaller
+  Select = 1,     // selects the target of the ray
+  Grab = 2,       // while held, the scene moves with the wand
+  Scale = 4,      // while held, the wand makes the scene larger and smaller
   Home = 8,       // resets the transform of the scene
-  Recenter = 16,  // makes the wand's current direction straight ahead
+  Recenter = 16,  // sets the wand's current direction as straight ahead
   Stop = 32,      // removes the force at once
 };
 
@@ -27,15 +27,15 @@ enum class WandMotion : std::uint32_t { Absolute = 0, Rate = 1 };
 // State that every wand reports. Room frame, metres, right-handed, +y up; the ray leaves the wand along its -z.
 // Trivially copyable, so that it can cross threads in a core::LatestValue.
 struct WandState {
-  std::int64_t time_ns = 0;  // arrival of the newest report
+  std::int64_t time_ns = 0;  // arrival time of the newest report
   glm::dvec3 position_m{0.0};
   glm::dquat room_from_wand{1.0, 0.0, 0.0, 0.0};
-  bool orientation_valid = false;  // false: the wand points nowhere
+  bool orientation_valid = false;  // false: the wand has no direction
   bool position_valid = false;     // false: position_m is an assumed position of the hand
   bool connected = false;
   WandMotion motion = WandMotion::Absolute;
   std::uint32_t buttons = 0;  // bits of WandButton
-  std::uint32_t stops = 0;    // presses of Stop so far; includes those shorter than a frame
+  std::uint32_t stops = 0;    // number of presses of Stop so far, including those shorter than a frame
   // deflection of the cap or stick along, and about, the room's axes: -1 to 1
   glm::dvec3 push{0.0};
   glm::dvec3 turn{0.0};

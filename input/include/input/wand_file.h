@@ -14,9 +14,9 @@ namespace afm::input {
 
 // Contents of a wand file (TOML): position of the hand, tracker, mapping of an HID device.
 struct WandFile {
-  std::optional<glm::dvec3> hand_m;  // room frame, used for a wand without position tracking
+  std::optional<glm::dvec3> hand_m;  // position of the hand in the room frame, for a wand without position tracking
   std::optional<DtrackSettings> dtrack;
-  std::optional<std::uint32_t> head_body;  // body number in the tracker
+  std::optional<std::uint32_t> head_body;  // number of the head's body in the tracker
   std::optional<HidMapping> device;
 };
 

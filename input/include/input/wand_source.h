@@ -31,7 +31,7 @@ class WandThread {
   WandThread& operator=(const WandThread&) = delete;
   ~WandThread();
 
-  // Any thread. Not connected before the first state.
+  // Newest state; not connected before the first one. Any thread.
   WandState newest() const { return newest_.load().value_or(WandState{}); }
 
  private:
@@ -40,7 +40,7 @@ class WandThread {
   std::unique_ptr<WandSource> source_;
   core::LatestValue<WandState> newest_;
   std::atomic<bool> ending_{false};
-  std::thread thread_;  // last member: it uses all the others
+  std::thread thread_;  // last member, because the thread uses all the others
 };
 
 }  // namespace afm::input

@@ -14,14 +14,14 @@ namespace afm::input {
 // accelerometer; 0x33: plus four infrared dots; 0x35: with an extension instead; 0x37: two pairs of dots and an
 // extension. Source: Linux' hid-wiimote-core.c; WiiBrew for the layout of the dots, of 0x20 and of 0x21.
 struct WiimoteReport {
-  std::uint16_t buttons = 0;                                 // low byte first, without the accelerometer's bits
-  std::optional<std::array<std::uint16_t, 3>> acceleration;  // 10 bits, 512 at 0 g; x left, y towards the hand, z up
+  std::uint16_t buttons = 0;                                 // bits, low byte first, without the accelerometer's bits
+  std::optional<std::array<std::uint16_t, 3>> acceleration;  // raw, 10 bits, 512 at 0 g; x left, y to the hand, z up
   struct Dot {
-    std::uint16_t x = 0;  // 0 to 1023
-    std::uint16_t y = 0;  // 0 to 767
+    std::uint16_t x = 0;  // horizontal position, 0 to 1023
+    std::uint16_t y = 0;  // vertical position, 0 to 767
   };
   std::array<std::optional<Dot>, 4> dots;
-  std::optional<std::array<std::uint8_t, 6>> extension;  // first bytes; the meaning depends on its type
+  std::optional<std::array<std::uint8_t, 6>> extension;  // first bytes, whose meaning depends on the type
   bool plug_changed = false;
   struct Memory {
     std::uint16_t address = 0;  // low 16 bits of the address
@@ -35,8 +35,8 @@ std::optional<WiimoteReport> parse_wiimote(Bytes report);
 
 // Gyroscope of a MotionPlus, or the one inside a Wii Remote Plus, in place of another extension.
 struct MotionPlusReport {
-  std::array<std::uint16_t, 3> rates{};  // 14 bits, 8192 at rest; about the remote's left, back and up axes
-  std::array<bool, 3> slow{};            // same order; true: finer counts
+  std::array<std::uint16_t, 3> rates{};  // raw rates, 14 bits, 8192 at rest; about the remote's left, back and up axes
+  std::array<bool, 3> slow{};            // resolution of each rate; true: finer counts
 };
 
 // Parses the six bytes of an extension. Empty: not from a gyroscope, such as the bytes of an extension behind a

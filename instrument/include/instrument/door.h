@@ -28,7 +28,7 @@ class Door {
   // Bytes that the last request may lack if its client sends nothing more.
   virtual std::string_view omitted_end() const { return {}; }
 
-  // Sends bytes; false: nobody reads any more.
+  // Function that sends bytes; false: nobody reads any more.
   using Send = std::function<bool(std::string_view bytes)>;
   enum class Then { GoOn, Quit };
 
@@ -44,7 +44,7 @@ class Door {
   std::string_view sent_meanwhile() const { return look_ ? look_() : std::string_view(); }
 
  private:
-  Look look_;  // empty: nothing can come meanwhile
+  Look look_;  // callback for further input; empty: none can arrive meanwhile
 };
 
 }  // namespace afm::instrument

@@ -22,13 +22,13 @@ class HeldBase {
   // Starts far above. Fails as curves::run_curve() does.
   static core::Result<HeldBase> create(const curves::ContactSetup& setup);
 
-  // Height at which a tip in contact is pushed with `force_n`; that of the jump off contact for a pull which no contact
-  // bears.
+  // Height at which a tip in contact is pushed with `force_n`; for a pull that no contact holds, height of the jump off
+  // contact.
   double height_under(double force_n) const;
 
-  void lift();                  // retraction to far above the sample
-  void press(double height_m);  // from far above into contact, and to this height
-  void step(double height_m);   // motion along a straight path
+  void lift();                  // retracts the base to far above the sample
+  void press(double height_m);  // moves the base from far above into contact and to this height
+  void step(double height_m);   // moves the base along a straight path
 
   double force_n() const noexcept { return force_n_; }
   bool touches() const noexcept { return touches_; }

@@ -17,7 +17,7 @@ class SimulatedInstrument;
 // Requests to an instrument and their answers, one JSON object a line (docs/serve.md).
 class JsonDoor final : public Door {
  public:
-  // `folder` is where "save" writes; empty: nowhere. The instrument must outlive the object.
+  // `folder` is the folder into which "save" writes; empty: none. The instrument must outlive the object.
   JsonDoor(SimulatedInstrument& instrument, std::string folder);
   ~JsonDoor() override;
 

@@ -15,10 +15,10 @@ namespace afm::instrument {
 // Socket at which clients of the same user connect; all others are refused. One thread.
 class Listener {
  public:
-  // A Unix socket of mode 0600, in place of one that nobody listens on any more; the destructor and an interruption
-  // remove it. WrongUsage for a path that is too long or taken.
+  // Listener on a Unix socket of mode 0600, in place of one that nobody listens on any more; the destructor and an
+  // interruption remove it. WrongUsage for a path that is too long or taken.
   static core::Result<Listener> on_socket(const std::string& path);
-  // A TCP port of 127.0.0.1; zero: any free one. Fails for a port that is taken or not allowed.
+  // Listener on a TCP port of 127.0.0.1; zero: any free one. Fails for a port that is taken or not allowed.
   static core::Result<Listener> on_loopback(std::uint16_t port);
 
   Listener(Listener&&) noexcept;
@@ -26,7 +26,7 @@ class Listener {
   ~Listener();
 
   int descriptor() const noexcept { return socket_.get(); }
-  std::uint16_t port() const;  // port of a listener of on_loopback()
+  std::uint16_t port() const;  // port number of an on_loopback() listener
 
   // The next client, which does not block; none, if it has left again or is refused.
   core::FileDescriptor accept() const;
@@ -36,7 +36,7 @@ class Listener {
 
   Listener(core::FileDescriptor socket, std::unique_ptr<Path> path);
 
-  std::unique_ptr<Path> path_;  // null for TCP
+  std::unique_ptr<Path> path_;  // path of the Unix socket; null for TCP
   core::FileDescriptor socket_;
 };
 

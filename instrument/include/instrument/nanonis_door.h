@@ -21,8 +21,8 @@ class SimulatedInstrument;
 // Properties of scans that a client sets, as Scan.PropsGet names them: kept, without effect.
 struct NanonisProperties {
   static constexpr std::uint32_t kSaveNone = 2;
-  std::uint32_t continuous = 0, bouncing = 0;  // 0 off, 1 on
-  std::uint32_t autosave = kSaveNone;          // no image is saved
+  std::uint32_t continuous = 0, bouncing = 0;  // flags of a scan, 0 off, 1 on
+  std::uint32_t autosave = kSaveNone;          // choice by which no image is saved
   std::string series, comment;
 };
 
@@ -31,7 +31,7 @@ struct NanonisProperties {
 // time never waits for a client.
 class NanonisDoor final : public Door {
  public:
-  static constexpr double kApproachSpeedM = 1e-6;  // m/s
+  static constexpr double kApproachSpeedM = 1e-6;  // speed of an approach, m/s
 
   // The instrument must outlive the object.
   explicit NanonisDoor(SimulatedInstrument& instrument);
@@ -47,16 +47,16 @@ class NanonisDoor final : public Door {
   struct Functions;
 
   SimulatedInstrument& instrument_;
-  std::unique_ptr<const physics::ScanImage> image_;  // newest
-  bool upwards_ = false;                             // direction of its scan
+  std::unique_ptr<const physics::ScanImage> image_;  // newest image; null: none
+  bool upwards_ = false;                             // direction of the newest image's scan
   bool feedback_ = true;
-  float bias_v_ = 0;                      // kept, without effect
-  double frame_x_m_ = 0, frame_y_m_ = 0;  // middle of the images, wherever the tip is
-  double follow_speed_m_per_s_ = 1e-6;    // with custom_speed_; otherwise the tip moves as fast as it scans
+  float bias_v_ = 0;                      // bias voltage, stored without effect
+  double frame_x_m_ = 0, frame_y_m_ = 0;  // middle of the images, independent of the tip's position
+  double follow_speed_m_per_s_ = 1e-6;    // speed with custom_speed_; otherwise the tip moves at its scan speed
   std::uint32_t custom_speed_ = 0;
-  bool keeps_speed_ = false;  // a wider image takes longer for a line
+  bool keeps_speed_ = false;  // true: a wider image takes longer for a line
   std::vector<std::int32_t> channels_{30};
-  float speed_ratio_ = 1;  // ratio of retrace and trace; kept: a retrace takes as long as a trace
+  float speed_ratio_ = 1;  // ratio of retrace and trace, stored without effect: both take equally long
   NanonisProperties properties_;
 };
 

@@ -34,7 +34,7 @@ class SimulatedInstrument {
   static core::Result<SimulatedInstrument> create(std::string assets_dir, std::uint64_t seed,
                                                   imaging::OwnSample sample = {});
 
-  // Shows from now on what happens; the showcase must outlive the object. Results do not depend on it.
+  // Shows the following events in a showcase, which must outlive the object. Results do not depend on it.
   void show_in(Showcase& showcase);
 
   // Restarts as if created with this seed.
@@ -42,7 +42,7 @@ class SimulatedInstrument {
 
   const InstrumentSettings& settings() const noexcept { return settings_; }
   const curves::ContactSetup& setup() const noexcept { return setup_; }
-  // Fails, without a change, for numbers of which the contact's law or the scanner has no use.
+  // Fails, without a change, for numbers that the contact's law or the scanner does not use.
   core::Result<void> change(const InstrumentSettings& settings);
 
   // Lowers the tip onto the sample until the setpoint is reached, or seems to be: Faults::false_engagement.
@@ -61,16 +61,16 @@ class SimulatedInstrument {
 
   struct Position {
     double x_m = 0, y_m = 0;
-    double z_m = 0;        // lever's base, above the mean level of the sample
-    bool engaged = false;  // the feedback holds the setpoint, as far as it can detect
+    double z_m = 0;        // height of the lever's base above the mean level of the sample
+    bool engaged = false;  // true: the feedback holds the setpoint, as far as it can detect
     double time_s = 0;
   };
   const Position& position() const noexcept { return at_; }
 
   struct CurveRequest {
     std::optional<double> z_from_m{},
-        z_to_m{};              // heights of the lever's base, zero at the surface; empty: as touchafm curve
-    std::size_t points = 500;  // points of each branch, 2 to kMostCurvePoints; a jump adds two
+        z_to_m{};              // heights of the lever's base, zero at the surface; empty: defaults of touchafm curve
+    std::size_t points = 500;  // number of points per branch, 2 to kMostCurvePoints; a jump adds two
     double speed_m_per_s = 1e-6;
   };
   static constexpr std::size_t kMostCurvePoints = 100'000;
@@ -106,14 +106,14 @@ class SimulatedInstrument {
 
   // True values, which no microscope shows.
   struct Truth {
-    double tip_radius_m = 0;                // as worn as it is
-    double tip_growth_m = 0;                // by wear since the start
-    bool touching = false;                  // false after a false engagement
-    bool second_apex = false;               // a changed tip
-    double surface_m = 0;                   // height of the sample below the tip, for its apex
+    double tip_radius_m = 0;                // radius of the tip with its wear
+    double tip_growth_m = 0;                // growth of the radius by wear since the start
+    bool touching = false;                  // true: the tip touches; false after a false engagement
+    bool second_apex = false;               // true: the tip has a second apex
+    double surface_m = 0;                   // height of the sample below the apex
     double sample_x_m = 0, sample_y_m = 0;  // drift of the sample since the start
     double highest_force_n = 0;             // strongest push so far
-    std::size_t state_flips = 0;  // changes of a swing between its two states along the lines of the newest image
+    std::size_t state_flips = 0;            // changes of a swing between its two states in the newest image
   };
   Truth truth() const;
 
@@ -148,18 +148,18 @@ class SimulatedInstrument {
   std::string assets_dir_;
   imaging::OwnSample sample_;
   InstrumentSettings settings_;
-  curves::ContactSetup setup_;                           // with the worn tip
-  std::optional<physics::SweepPlan> usual_path_;         // default of its curves; empty: not computed yet
-  std::shared_ptr<const imaging::ScanSurface> surface_;  // surface under the tip as it was at surface_radius_m_
+  curves::ContactSetup setup_;                           // contact with the worn tip
+  std::optional<physics::SweepPlan> usual_path_;         // default path of curves; empty: not computed yet
+  std::shared_ptr<const imaging::ScanSurface> surface_;  // surface under a tip of radius surface_radius_m_
   double surface_radius_m_ = 0;
   double growth_m_ = 0, drift_x_m_ = 0, drift_y_m_ = 0, highest_force_n_ = 0;
   std::size_t state_flips_ = 0;
   bool touching_ = false, second_apex_ = false;
   Position at_;
-  std::optional<HeldBase> base_;  // its path without feedback; empty: not needed yet
+  std::optional<HeldBase> base_;  // base held without feedback; empty: not needed yet
   std::mt19937_64 chance_;
   physics::NormalGenerator noise_;
-  Showcase* showcase_ = nullptr;  // null: not shown
+  Showcase* showcase_ = nullptr;  // display of the instrument, not owned; null: none
 };
 
 }  // namespace afm::instrument

@@ -33,7 +33,7 @@ struct LawChoice {
   Regime regime = Regime::Dmt;
   double tabor = 0.0;
   double maugis = 0.0;
-  std::string reason;  // one sentence for users, with the numbers
+  std::string reason;  // reason in one sentence for users, with the numbers
 };
 
 // Chooses by the regime at zero load, where only adhesion presses the bodies together: JKR for JKR, Maugis-Dugdale for

@@ -9,9 +9,9 @@ namespace afm::physics {
 // An elastic sphere that adheres to an elastic half-space, as in the contact mechanics of Hertz, DMT, JKR and Maugis.
 // Values are within the ranges of validate(); the modulus is finite.
 struct AdhesiveContact {
-  Length tip_radius;               // R
-  Pressure reduced_modulus;        // E*
-  SurfaceEnergy work_of_adhesion;  // W
+  Length tip_radius;               // R, radius of the tip
+  Pressure reduced_modulus;        // E*, reduced modulus
+  SurfaceEnergy work_of_adhesion;  // W, work of adhesion
 };
 
 // Throws as validate() does, and UnphysicalValue if the modulus is infinite, because contact mechanics does not apply

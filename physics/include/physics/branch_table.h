@@ -20,7 +20,7 @@ class BranchTable {
  public:
   static constexpr std::size_t kNodesPerOctave = 128;
 
-  enum class Side { Above, Below };  // side of its end on which the branch lies
+  enum class Side { Above, Below };  // side of the branch's end on which its points are
 
   struct Node {
     double force_n = 0.0;
@@ -29,10 +29,10 @@ class BranchTable {
 
   // Part between two kinks. Node 0 is at u = 0, node i at node_u(first_octave, i), except that the last is at `last_u`.
   struct Piece {
-    double start = 0.0;  // |Z - Z_end| of its first node, m
+    double start = 0.0;  // |Z - Z_end| of the first node, m
     int first_octave = 0;
     double last_u = 0.0;
-    std::vector<Node> nodes;  // two nodes or more
+    std::vector<Node> nodes;  // at least two nodes
   };
   static double node_u(int first_octave, std::size_t index) noexcept;
 
@@ -61,14 +61,14 @@ class BranchTable {
   Force force_beyond(double z, double distance) const noexcept;
 
   double end_z_ = 0.0;
-  double side_ = 1.0;    // +1 above the end, -1 below
+  double side_ = 1.0;    // +1: the branch is above its end; -1: below
   double reach_ = -1.0;  // |Z - Z_end| of the last node; negative without nodes
   double last_force_ = 0.0;
-  double tail_exponent_ = 0.0;       // positive: F falls off as distance^-tail_exponent beyond the last node
-  double line_force_at_zero_ = 0.0;  // otherwise F is this line there
-  double line_slope_ = 0.0;          // N/m
-  double spacing_ = 0.0;             // positive if the nodes are equally spaced
-  std::vector<Piece> pieces_;        // a single one if the nodes are equally spaced
+  double tail_exponent_ = 0.0;       // exponent p of a tail like distance^-p beyond the last node; 0: a line
+  double line_force_at_zero_ = 0.0;  // force at Z = 0 of the straight line beyond the last node, N
+  double line_slope_ = 0.0;          // slope of that line, N/m
+  double spacing_ = 0.0;             // distance of equally spaced nodes, m; 0: nodes spaced by octaves
+  std::vector<Piece> pieces_;        // pieces from the end outwards; only one if the nodes are equally spaced
 };
 
 }  // namespace afm::physics

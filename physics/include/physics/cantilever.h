@@ -18,8 +18,8 @@ struct RectangularLever {
 // Two arms that meet at the tip.
 struct VShapedLever {
   Length length;      // distance from the base to the tip
-  Length base_width;  // b, outer distance of the arms at the base
-  Length arm_width;   // d, of each arm, parallel to the base
+  Length base_width;  // b, distance of the arms' outer edges at the base
+  Length arm_width;   // d, width of each arm, parallel to the base
   Length thickness;
   Pressure young_modulus;
 };
@@ -47,7 +47,7 @@ Stiffness tilted_spring_constant(Stiffness spring_constant, double tilt_rad);
 // (1 + nu)), for t well below w.
 Stiffness lateral_stiffness(const RectangularLever& lever, double poisson_ratio, Length tip_height);
 
-// The same from a known k: k 2/(3 (1 + nu)) (L/h)^2.
+// Torsional stiffness from a known spring constant k: k 2/(3 (1 + nu)) (L/h)^2.
 Stiffness lateral_stiffness(Stiffness spring_constant, double poisson_ratio, Length length, Length tip_height);
 
 }  // namespace afm::physics

@@ -41,16 +41,16 @@ Force adhesion_force(const ContactParameters& contact);
 // All events of one cycle, as magnitudes.
 struct ApproachRetractEvents {
   double alpha = 1.0;
-  Stiffness effective_stiffness;  // k'
+  Stiffness effective_stiffness;  // k', lever and sample in series
   Length d_attr;                  // gap at the jump to contact
-  Length delta_c_attr;            // deflection of the lever just before it
-  Length delta_s_attr;            // deformation of the sample just before it, (k_c/k_s) (delta_c)_attr
-  Length z_jtc;                   // jump to contact
+  Length delta_c_attr;            // deflection of the lever just before the jump to contact
+  Length delta_s_attr;            // deformation of the sample just before the jump to contact, (k_c/k_s) (delta_c)_attr
+  Length z_jtc;                   // Z at the jump to contact
   Force f_fold;  // attraction just before the jump, k_c (delta_c)_attr: a third of F_attr when alpha = 1
   Force f_attr;  // k' Z_jtc (3.10): the lever's pull just after the jump, with the tip on the surface
   SurfaceEnergy work_of_adhesion;
   Force f_ad;          // pull-off force
-  Length z_joc;        // jump off contact, F_ad/k'; the paper prints no equation for it
+  Length z_joc;        // Z at the jump off contact, F_ad/k'; the paper prints no equation for it
   Energy loop_energy;  // k' (Z_joc^2 - Z_jtc^2)/2: dissipated by one cycle of the latch; negative if Z_joc < Z_jtc
 };
 

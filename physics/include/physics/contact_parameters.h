@@ -17,13 +17,13 @@ namespace afm::physics {
 // Parameters of a force law for a combination of tip, lever, sample and medium. The paper's law (Liu & Peng, Table 1)
 // uses only the first five.
 struct ContactParameters {
-  Length tip_radius;                  // R
-  Stiffness spring_constant;          // k_c, of the cantilever
-  Stiffness sample_stiffness;         // k_s of an elastic support below the contact; infinite: rigid
-  Energy hamaker;                     // A_H, of tip and sample across the medium
+  Length tip_radius;                  // R, radius of the tip
+  Stiffness spring_constant;          // k_c, spring constant of the cantilever
+  Stiffness sample_stiffness;         // k_s, stiffness of an elastic support below the contact; infinite: rigid
+  Energy hamaker;                     // A_H, Hamaker constant of tip and sample across the medium
   SurfaceEnergy mean_surface_energy;  // sqrt(gamma_s gamma_t), half of the work of adhesion (3.3)
   Pressure reduced_modulus{std::numeric_limits<double>::infinity()};  // E*, 1/E* = (1-nu_t^2)/E_t + (1-nu_s^2)/E_s
-  Length atomic_distance{0.3e-9};                                     // z0, of the surface Lennard-Jones potential
+  Length atomic_distance{0.3e-9};                                     // z0 of the surface Lennard-Jones potential
 };
 
 // A value outside the range of any force microscope. The message quotes it with its unit and the legal range.
@@ -32,7 +32,7 @@ class UnphysicalValue : public std::invalid_argument {
   UnphysicalValue(std::string field_name, const std::string& message)
       : std::invalid_argument(message), field_(std::move(field_name)) {}
 
-  // Member of ContactParameters: "tip_radius".
+  // Name of the member of ContactParameters: "tip_radius".
   const std::string& field() const noexcept { return field_; }
 
  private:
@@ -43,15 +43,15 @@ class UnphysicalValue : public std::invalid_argument {
 struct ContactField {
   std::string_view name;      // name of the member; messages print it with spaces for underscores
   std::string_view json_key;  // key of its SI value in session files and in headers of recorded curves
-  std::string_view meaning;   // its symbol, for help texts
-  double smallest;            // SI, inclusive
-  double largest;             // SI, inclusive
-  Infinity infinity;          // Allowed: infinity means a rigid body
+  std::string_view meaning;   // symbol of the quantity, for help texts
+  double smallest;            // smallest legal value, SI
+  double largest;             // largest legal value, SI
+  Infinity infinity;          // Allowed: infinity is legal and means a rigid body
   const Units* units;
-  double (*get)(const ContactParameters& contact);  // SI
+  double (*get)(const ContactParameters& contact);  // getter of the SI value
   void (*set)(ContactParameters& contact, double si);
 
-  // "100 pm to 1 mm"
+  // The legal range as text: "100 pm to 1 mm".
   std::string range() const { return range_text(smallest, largest, *units); }
 };
 
@@ -70,7 +70,7 @@ constexpr ContactField contact_field(std::string_view name, std::string_view jso
           [](ContactParameters& contact, double si) { (contact.*Member).si = si; }};
 }
 
-// In the order of the members. The ranges are those of real force microscopes with a margin.
+// Rows in the order of the members. The ranges are those of real force microscopes with a margin.
 inline constexpr std::array kContactFields{
     contact_field<&ContactParameters::tip_radius>("tip_radius", "tip_radius_m", "R", 1e-10, 1e-3, kLengthUnits),
     contact_field<&ContactParameters::spring_constant>("spring_constant", "spring_constant_N_per_m", "k_c", 1e-6, 1e6,

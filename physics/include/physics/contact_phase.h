@@ -17,24 +17,24 @@ enum class EventKind : std::uint32_t {
   JumpOffContact = 2,
   Slip = 3,
   ParticleTouched = 4,
-  ParticleGave = 5,        // a particle at rest began to move
-  ParticleLost = 6,        // the tip went past a particle that it had pushed
-  ParticleRiddenOver = 7,  // the tip climbed over a particle, because its lever is too soft
-  PushTakenBack = 8,       // the particles are where they were before the newest push
-  ParticlesPutBack = 9,    // all particles are where they were at the start
-  ParticleDragged = 10,    // a particle at rest began to follow a tip that pulls it by adhesion
-  ParticleTorn = 11,       // the contact by which the tip pulled a particle tore
-  JumpToRepulsion = 12,    // a tapping lever fell from the attractive into the repulsive state
-  JumpToAttraction = 13,   // a tapping lever fell back into the attractive state
-  ParticleLifted = 14,     // the tip lifted a particle off the sample, which now hangs on it
-  ParticleSetDown = 15,    // a particle on the tip came to lie on the sample
-  LookedAgain = 16,        // a person ordered another scan of the particles near the tip, which begins
-  SurfaceMarked = 17,      // a tip began to press a soft sample in
-  TipStopped = 18,         // a tip cannot sink deeper: the load is more than the model of a soft sample bears
-  HandTooFast = 19,        // the lever on a soft sample was raised, because the hand moves faster than it scratches
-  InkFlows = 20,           // a tip with ink touched the sample
-  LiquidTorn = 21,         // it came off, and the liquid between tip and sample tore
-  ParticleSwept = 22,      // a scan that presses too hard to climb a particle began to push it
+  ParticleGave = 5,        // start of the motion of a particle at rest
+  ParticleLost = 6,        // particle passed by the tip that had pushed it
+  ParticleRiddenOver = 7,  // particle climbed by the tip, because its lever is too soft
+  PushTakenBack = 8,       // newest push undone: every particle is back where it was before it
+  ParticlesPutBack = 9,    // all particles back where they were at the start
+  ParticleDragged = 10,    // start of a particle's motion behind a tip that pulls it by adhesion
+  ParticleTorn = 11,       // contact torn by which the tip pulled a particle
+  JumpToRepulsion = 12,    // fall of a tapping lever from the attractive into the repulsive state
+  JumpToAttraction = 13,   // fall of a tapping lever back into the attractive state
+  ParticleLifted = 14,     // particle lifted off the sample, which now hangs on the tip
+  ParticleSetDown = 15,    // arrival of a carried particle on the sample
+  LookedAgain = 16,        // start of another scan of the particles near the tip, ordered by a person
+  SurfaceMarked = 17,      // start of an indentation of a soft sample by a tip
+  TipStopped = 18,         // tip at its lowest height: the load exceeds the model of a soft sample
+  HandTooFast = 19,        // lever raised from a soft sample, because the hand moves faster than it scratches
+  InkFlows = 20,           // touch-down of a tip with ink
+  LiquidTorn = 21,         // tear of the liquid between tip and sample, as the tip comes off
+  ParticleSwept = 22,      // start of a particle's motion under a scan that presses too hard to climb it
 };
 
 // Name in reports and replays.

@@ -26,12 +26,12 @@ struct Extreme {
 
 // Properties of a curve that follow from its samples only.
 struct CurveSummary {
-  Extreme approach;    // its force is -F_attr
-  Extreme retract;     // its force is -F_ad
+  Extreme approach;    // strongest pull of the approach; its force is -F_attr
+  Extreme retract;     // strongest pull of the retract; its force is -F_ad
   Energy loop_energy;  // energy lost by the hand: -closed integral of F dZ, by trapezoids
 };
 
-// For samples in the order of the cycle. The loop is closed only if the first and the last sample have the same Z.
+// Summary of samples in the order of the cycle. The loop is closed only if the first and the last one have the same Z.
 CurveSummary summarise(std::span<const CurveSample> samples);
 
 // The curve of a model in the form of an instrument's.
@@ -40,7 +40,7 @@ std::vector<CurvePoint> points_of(std::span<const CurveSample> samples);
 // Interference of the laser's light at lever and sample: a wave along Z with this period, as a sum of a sine and a
 // cosine of the distance from the outermost point.
 struct Waves {
-  Length period;  // zero: none
+  Length period;  // wavelength along Z; zero: no interference
   Force sine, cosine;
 
   Force amplitude() const { return Force(std::hypot(sine.si, cosine.si)); }
@@ -65,9 +65,9 @@ struct Baseline {
 };
 
 enum class BaselineShape {
-  Tilted,  // a straight line
-  Flat,    // a level only
-  Waves,   // a straight line and one wave
+  Tilted,  // straight line
+  Flat,    // constant force
+  Waves,   // straight line and one wave
 };
 
 struct BaselineShapeName {
@@ -81,12 +81,12 @@ static_assert(has_row_for_each(kBaselineShapes, &BaselineShapeName::shape));
 
 // Part of the approach, as distances from its outermost point.
 struct WayRange {
-  Length from, to;  // from < to
+  Length from, to;  // distances from the outermost point, from < to
 };
 
 struct BaselineChoice {
   BaselineShape shape = BaselineShape::Tilted;
-  std::optional<WayRange> range{};  // empty: found from the curve
+  std::optional<WayRange> range{};  // range of the approach that is fitted; empty: found from the curve
 };
 
 // A sudden change of the force: the last point before it and the strongest pull after it. Forces are above the
@@ -131,12 +131,12 @@ struct CurveFeatures {
   Force greatest_push;
   std::optional<Length> contact_point;
   ContactMethod contact_method = ContactMethod::ZeroForce;
-  std::array<std::optional<Length>, kContactMethods.size()> contact_estimates{};  // order of kContactMethods
+  std::array<std::optional<Length>, kContactMethods.size()> contact_estimates{};  // in the order of kContactMethods
   std::optional<PlaceRange> contact_range;
   bool contact_doubtful = false;
   std::optional<CurveJump> snap_in;
   std::optional<Extreme> pull_off;
-  bool jumps_off = false;  // the pull-off is a jump
+  bool jumps_off = false;  // true: the pull-off is a jump
   std::optional<Extreme> adhesion;
   std::optional<Length> let_go;
   std::optional<Stiffness> contact_slope;
@@ -152,7 +152,7 @@ inline constexpr std::size_t kFewestBaselinePoints = 5;
 // long-range attraction for tilt.
 enum class ForceZero { Instrument, True };
 
-// For points in the order of the cycle, any number per branch. Throws std::invalid_argument if the approach has fewer
+// Analyses points in the order of the cycle, any number per branch. Throws std::invalid_argument for fewer
 // than kFewestApproachPoints, a point is not finite, all points have the same Z, or fewer than kFewestBaselinePoints
 // lie in the chosen range. O(n log n), allocates.
 CurveFeatures analyse(std::span<const CurvePoint> points, ForceZero zero = ForceZero::Instrument,

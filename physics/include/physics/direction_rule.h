@@ -26,7 +26,7 @@ class DirectionRuleModel {
   const LawTables& tables() const noexcept { return *tables_; }
 
  private:
-  std::shared_ptr<const LawTables> tables_;  // shared, which makes copies of the model cheap
+  std::shared_ptr<const LawTables> tables_;  // tables shared between copies, so that copying the model is cheap
   Phase phase_ = Phase::Free;
   std::optional<Length> previous_z_;
 };

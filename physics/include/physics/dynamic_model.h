@@ -43,7 +43,7 @@ namespace afm::physics {
 class DynamicModel {
  public:
   static constexpr std::int64_t kSubSteps = 256;
-  static constexpr std::int64_t kLongestStep = 1'000'000'000;  // sub-steps of simulating()
+  static constexpr std::int64_t kLongestStep = 1'000'000'000;  // limit of sub-steps per step of simulating()
   static constexpr std::uint64_t kDefaultSeed = 1;
 
   // Starts in WaitForLift. Throws std::invalid_argument (UnphysicalValue if one field is the cause) as
@@ -52,15 +52,15 @@ class DynamicModel {
   DynamicModel(Law law, const ContactParameters& contact, const LeverDynamics& lever, Time tick_period,
                const LawOptions& options = {}, std::uint64_t seed = kDefaultSeed);
 
-  // The same model, waiting, whose step() simulates exactly this time in as many sub-steps as necessary, for curves.
+  // The model, waiting, with a step() that simulates exactly this time in as many sub-steps as necessary, for curves.
   // (Beyond kLongestStep sub-steps it is in slow motion again.) Throws std::invalid_argument for an invalid time.
   DynamicModel simulating(Time per_step) const;
 
   // The response at Z after a straight path from the previous step's Z.
   TipResponse step(Length z) noexcept;
 
-  // For a start, a change of material or a dropout: zero force until Z > Z_joc. Restarts the noise, so that the results
-  // depend only on later steps.
+  // Resets the model at a start, a change of material or a dropout: no force until Z > Z_joc. Restarts the noise, so
+  // that the results depend only on later steps.
   void wait_for_lift() noexcept;
 
   // Free and at rest at Z, or in steady motion with a base of this velocity. Z must be above Z_jtc.
@@ -89,7 +89,7 @@ class DynamicModel {
     Length contact_gap;
     std::shared_ptr<const TipForce> surface;
     std::uint64_t seed;
-    Length free_above;  // end of a jump off contact
+    Length free_above;  // height of the tip at which a jump off contact ends
   };
 
   static std::shared_ptr<const Setup> build(Law law, const ContactParameters& contact, const LeverDynamics& lever,

@@ -7,7 +7,7 @@ namespace afm::physics {
 
 // An isotropic elastic body.
 struct Elasticity {
-  Pressure modulus;  // Young's
+  Pressure modulus;  // Young's modulus
   double poisson_ratio = 0.0;
 };
 

@@ -22,10 +22,10 @@ struct LawPoint {
 // branch h and F are continuous; their derivatives may jump only at `kinks`. Used for building tables, never by the
 // servo.
 struct LawBranch {
-  double first = 0.0;  // parameter at the largest h of a free branch, or the deepest point of an attached one
-  double last = 0.0;   // end of the branch: contact for a free branch, the end of the neck for an attached one
+  double first = 0.0;  // parameter at the start: the largest h of a free branch, the deepest point of an attached one
+  double last = 0.0;   // parameter at the end: contact for a free branch, the end of the neck for an attached one
   std::function<LawPoint(double s)> at;
-  std::vector<double> kinks;  // strictly between first and last, ascending
+  std::vector<double> kinks;  // parameters at kinks, strictly between first and last, ascending
 };
 
 // A force law between tip and sample, as two branches: that of a free tip, with h falling from far away to the
@@ -36,7 +36,7 @@ struct LawBranch {
 struct ForceLaw {
   LawBranch free;
   LawBranch attached;
-  Length contact_gap;  // D while attached: 0, or a0 if the law has an atomic distance
+  Length contact_gap;  // gap D while attached: 0, or a0 if the law has an atomic distance
 
   // The law's potential at the attached branch's last point, zero for a tip infinitely far away. With F = -dU/dh along
   // each branch it determines both branches, and thus the energy that each jump dissipates. Empty: the law has no

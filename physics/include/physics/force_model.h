@@ -17,9 +17,9 @@ namespace afm::physics {
 struct ModelEvent {
   EventKind kind = EventKind::JumpToContact;
   Length z;
-  Force force_before;     // signed, as in physics/contact.h
-  Force force_after;      // signed
-  double fraction = 0.0;  // fraction of the step's interval, in [0, 1]
+  Force force_before;     // force on the tip before the jump, signed as in physics/contact.h
+  Force force_after;      // force on the tip after the jump, signed
+  double fraction = 0.0;  // time of the jump as a fraction of the step's interval, in [0, 1]
 };
 
 // Response of tip and lever at one Z; frames and signs as in physics/contact.h. `events` contains `event_count` jumps
@@ -39,8 +39,8 @@ struct TipResponse {
 // Positions of apex, lever and surface at one Z with one force on the tip; frames and signs as in physics/contact.h.
 struct LeverState {
   Length tip_height;             // height of the apex above the undeformed surface, Z - delta_c
-  Length cantilever_deflection;  // delta_c = -F/k_c
-  Length sample_deformation;     // delta_s: of the support only while free, tip height minus the contact gap in contact
+  Length cantilever_deflection;  // delta_c = -F/k_c, deflection of the lever
+  Length sample_deformation;     // delta_s: of the support only while free; tip height minus the contact gap in contact
 };
 LeverState lever_state(const LawTables& tables, Phase phase, Length z, Force force) noexcept;
 
@@ -72,7 +72,7 @@ class ApproachRetractModel {
   // The response at Z after a straight path from the previous step's Z, if there was a step since the tip was lifted.
   TipResponse step(Length z) noexcept;
 
-  // For a start, a change of material or a dropout: zero force until Z > Z_joc.
+  // Resets the model at a start, a change of material or a dropout: no force until Z > Z_joc.
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
@@ -88,8 +88,8 @@ class ApproachRetractModel {
 
   std::shared_ptr<const LawTables> tables_;
   Phase phase_ = Phase::WaitForLift;
-  Length previous_z_;  // previous step; meaningless in WaitForLift
-  Length lowest_z_;    // minimum since the jump to contact; meaningless unless Attached
+  Length previous_z_;  // Z of the previous step; meaningless in WaitForLift
+  Length lowest_z_;    // lowest Z since the jump to contact; meaningless unless Attached
 };
 
 }  // namespace afm::physics

@@ -18,7 +18,7 @@ Length hertz_contact_radius(const AdhesiveContact& contact, Force load) noexcept
 // dP/d delta = 2 E* a for a contact radius a; the same for DMT.
 Stiffness hertz_stiffness(const AdhesiveContact& contact, Length contact_radius) noexcept;
 
-// 2 pi R W: added to DMT's load; equals the pull-off force for any lever.
+// 2 pi R W, the adhesion in DMT's load; equals the pull-off force for any lever.
 Force dmt_adhesion(const AdhesiveContact& contact) noexcept;
 
 // a = cbrt(3 R (P + 2 pi R W)/(4 E*)) for a load P >= -2 pi R W.

@@ -19,13 +19,13 @@ struct LawOptions;
 // The rate-independent force laws. All are two monotone branches with two folds (physics/law_tables.h) and differ only
 // in these. The values are part of session files and shared blocks: a new law gets the next one (docs/adding-a-law.md).
 enum class Law : std::uint32_t {
-  Paper = 0,          // Liu & Peng: zero until Hao's fold, then the contact line -k' Z until F_ad
-  Hao = 1,            // Paper with the van der Waals attraction before the fold
+  Paper = 0,          // Liu & Peng's law: zero until Hao's fold, then the contact line -k' Z until F_ad
+  Hao = 1,            // Liu & Peng's law with the van der Waals attraction before the fold
   Hertz = 2,          // elastic contact without adhesion
-  Dmt = 3,            // van der Waals, then Hertz with a constant adhesion (Derjaguin, Muller & Toporov)
-  Jkr = 4,            // Johnson, Kendall & Roberts
-  MaugisDugdale = 5,  // van der Waals, then Maugis' contact with a cohesive zone
-  LennardJones = 6,   // rigid sphere, surface 3-9 potential (Bradley)
+  Dmt = 3,            // van der Waals attraction, then Hertz with a constant adhesion (Derjaguin, Muller & Toporov)
+  Jkr = 4,            // contact of Johnson, Kendall & Roberts, without attraction before it
+  MaugisDugdale = 5,  // van der Waals attraction, then Maugis' contact with a cohesive zone
+  LennardJones = 6,   // rigid sphere with the surface 3-9 potential (Bradley)
   Measured = 7,       // two recorded branches of an instrument
   Count               // number of laws
 };
@@ -46,14 +46,14 @@ enum class ModulusUse { Unused, Optional, Needed };
 struct LawTraits {
   Law law;
   std::string_view name;  // name on command lines and in files
-  bool van_der_waals;     // includes the Hamaker constant
-  bool adhesion;          // includes the work of adhesion
-  bool atomic_distance;   // includes z0
+  bool van_der_waals;     // true: the law includes the Hamaker constant
+  bool adhesion;          // true: the law includes the work of adhesion
+  bool atomic_distance;   // true: the law includes z0
   ModulusUse modulus;
-  bool dynamic;     // its force follows from the tip's height without a lever, so it can move a mass
-  bool computed;    // computed from ContactParameters, so available for --model; false: recorded by an instrument
-  LawCurve* curve;  // null: closed form (computed), or recorded
-  LawContactRadius* contact_radius;  // null: no contact area, which friction by area needs
+  bool dynamic;     // true: the force follows from the tip's height without a lever, so the law can move a mass
+  bool computed;    // true: computed from ContactParameters, so available for --model; false: recorded by an instrument
+  LawCurve* curve;  // curve of the law; null: closed form (computed), or recorded
+  LawContactRadius* contact_radius;  // null: no contact area, so friction by area is not available
 };
 
 inline constexpr std::array kLawTable{
@@ -157,7 +157,7 @@ constexpr const LawTraits& traits_of(Law law) { return kLawTable.at(static_cast<
 
 constexpr bool has_dynamics(Law law) { return traits_of(law).dynamic; }
 
-// Returns whether a tapping lever's swing can be averaged on the law: that of bodies that give way.
+// Returns whether a tapping lever's swing can be averaged on the law: only on bodies that deform.
 constexpr bool has_averaged_swings(Law law) {
   return has_dynamics(law) && traits_of(law).modulus != ModulusUse::Unused;
 }
@@ -165,21 +165,21 @@ constexpr bool has_averaged_swings(Law law) {
 // The laws with a trait, in the order of the table: laws_with(&LawTraits::computed).
 std::vector<Law> laws_with(bool LawTraits::* trait);
 
-std::string_view name_of(Law law);  // "unknown" for an unknown law
+std::string_view name_of(Law law);  // name on command lines, "unknown" for an unknown law
 std::optional<Law> law_of(std::string_view name);
 
 // A liquid bridge in humid air, added to any law: 4 pi R gamma_L cos(theta) (Laplace pressure, sphere on plane).
 struct Meniscus {
-  SurfaceEnergy surface_tension{0.0728};  // gamma_L; water at 20 degrees Celsius
-  double contact_angle_rad = 0.0;         // theta
-  double relative_humidity = 0.5;         // 0 to 1; sets the height of the wetting films and the bridge's volume
+  SurfaceEnergy surface_tension{0.0728};  // gamma_L; default: water at 20 degrees Celsius
+  double contact_angle_rad = 0.0;         // theta, between liquid and solid
+  double relative_humidity = 0.5;         // 0 to 1; determines the height of the wetting films and the bridge's volume
 };
 
 // Options of a law that are not properties of the materials.
 struct LawOptions {
-  bool exact_hamaker_sphere = false;             // Hamaker's sphere instead of Derjaguin's approximation
-  std::optional<Length> retardation_wavelength;  // lambda of Gregory's factor; empty: not retarded
-  std::optional<Meniscus> meniscus;              // empty: no liquid bridge
+  bool exact_hamaker_sphere = false;             // true: Hamaker's sphere instead of Derjaguin's approximation
+  std::optional<Length> retardation_wavelength;  // lambda in Gregory's factor; empty: no retardation
+  std::optional<Meniscus> meniscus;              // liquid bridge; empty: none
 };
 
 // Throws UnphysicalValue (physics/contact_parameters.h) unless the retardation wavelength is within 1 nm to 100 um, the

@@ -30,12 +30,12 @@ struct LawTables {
   Length turn;
   Length pressed_to;  // deepest recorded position
   CycleFigures figures;
-  Length contact_gap;  // D while attached
+  Length contact_gap;  // gap D while attached
   // A lever that taps (physics/tapping/tapping_model.h): the Z above which its push is not felt, and the push at an
   // amplitude of zero. Zero: it does not tap.
   Length tapped_from;
   Force tapped_full;
-  // For a quality factor too low for averages, the swings of such a lever. Shared, because tables are copied.
+  // Swings of a lever with a quality factor too low for averages. Shared, because tables are copied.
   std::shared_ptr<const TapTable> taps;
 
   // Force in contact at `z`, after the tip was pressed down to `lowest`, at or below `z`. Depends on the deepest place
@@ -51,7 +51,7 @@ struct LawTables {
 std::shared_ptr<const LawTables> build_law_tables(Law law, const ContactParameters& contact,
                                                   const LawOptions& options = {});
 
-// The same for a law given by its two branches.
+// Builds the tables of a law given by its two branches; throws likewise.
 std::shared_ptr<const LawTables> build_law_tables(Law name, const ForceLaw& law, const ContactParameters& contact);
 
 // A recorded curve as a law: two branches of points along rising Z, smoothed by the caller. Each contains one jump,
@@ -71,7 +71,7 @@ struct MeasuredPoint {
   Force force;
 };
 struct MeasuredJumps {
-  std::uint32_t approach = 0;  // number of points below the jump; 0: unknown
+  std::uint32_t approach = 0;  // number of points of the approach below its jump; 0: unknown
   std::uint32_t retract = 0;
 };
 std::shared_ptr<const LawTables> measured_law_tables(std::span<const MeasuredPoint> approach,

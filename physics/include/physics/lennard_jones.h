@@ -18,14 +18,14 @@ class LennardJones {
   LennardJones(SurfaceEnergy work_of_adhesion, Length tip_radius, Length atomic_distance) noexcept
       : force_scale_(work_of_adhesion * tip_radius), z0_(atomic_distance) {}
 
-  Energy potential(Length gap) const noexcept;  // U, zero far away
+  Energy potential(Length gap) const noexcept;  // potential U, zero far away
   Force force(Length gap) const noexcept;
-  Stiffness gradient(Length gap) const noexcept;  // dF/dD
+  Stiffness gradient(Length gap) const noexcept;  // derivative of the force, dF/dD
 
   Length atomic_distance() const noexcept { return z0_; }
 
  private:
-  Force force_scale_;  // W R
+  Force force_scale_;  // W R, scale of the force
   Length z0_;
 };
 

@@ -24,14 +24,14 @@ namespace afm::physics {
 //
 // a and c decrease all the way; load and indentation are continuous.
 struct MaugisPoint {
-  double contact_radius;  // a; 0 for s >= 0
-  double load;            // P
-  double indentation;     // delta
+  double contact_radius;  // contact radius a; 0 for s >= 0
+  double load;            // load P
+  double indentation;     // indentation delta
   double dload_ds;
   double dindentation_ds;
 };
 
-// For lambda > 0. The derivatives at s = 0 are those of the contact.
+// One point of the family for lambda > 0. The derivatives at s = 0 are those of the contact.
 MaugisPoint maugis_point(double lambda, double s);
 
 // The parameter s of three contacts: the least load, at which contact is lost at a given load; the least indentation,

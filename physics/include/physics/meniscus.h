@@ -19,7 +19,7 @@ Force capillary_force(const Meniscus& meniscus, Length tip_radius) noexcept;
 // 0.24 nm at 75 %. An estimate: real films depend on the solid.
 Length film_height(const Meniscus& meniscus) noexcept;
 
-// 2h: where the films of tip and sample touch and the bridge forms.
+// Gap 2h at which the films of tip and sample touch and the bridge forms.
 Length bridge_formation_gap(const Meniscus& meniscus) noexcept;
 
 // cbrt(V), with V = 4 pi R h^2 the volume between sphere and plane in contact where they are closer than 2h: the gap at

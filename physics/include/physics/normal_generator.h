@@ -33,11 +33,11 @@ class NormalGenerator {
   // edge that of a rectangle of the same area.
   struct Layers {
     std::array<double, 257> edge{};
-    std::array<double, 257> height{};  // exp(-edge^2/2)
+    std::array<double, 257> height{};  // height of the bell curve, exp(-edge^2/2)
     Layers() noexcept;
   };
 
-  // 0 to below 1 from the upper 53 bits, which the layer and the sign do not use.
+  // Number from 0 to below 1 from the upper 53 bits, which the layer and the sign do not use.
   static double unit(std::uint64_t bits) noexcept { return static_cast<double>(bits >> 11) * 0x1p-53; }
 
   std::uint64_t next() noexcept {
@@ -54,7 +54,7 @@ class NormalGenerator {
 
   double at_the_rim(std::size_t layer, double x, bool negative) noexcept;
 
-  const Layers* layers_;  // shared by all generators
+  const Layers* layers_;  // tables shared by all generators
   std::array<std::uint64_t, 4> state_{};
 };
 

@@ -15,46 +15,46 @@ namespace afm::physics {
 struct Unit {
   std::string_view symbol;
   double per_si;         // units per SI unit; a power of ten, except for eV: 1e9 for nm, 1e-9 for GPa
-  bool shown;            // unit for messages and output; false: an alternative spelling, only accepted as input
+  bool shown;            // true: used in messages and output; false: an alternative spelling, only accepted as input
   double zero_si = 0.0;  // SI value of zero: 273.15 for degrees Celsius
 };
 
 // The units of one physical quantity, the largest first. Stiffness and surface energy are one type but two lists, so
 // that a spring constant in mJ/m2 is rejected.
 struct Units {
-  std::string_view sort;  // "a length", as messages name it
+  std::string_view sort;  // quantity as messages name it: "a length"
   std::span<const Unit> units;
 };
 
-// The same with the quantity as a compile-time type.
+// Units with the quantity as a compile-time type.
 template <class Q>
 struct UnitList : Units {};
 
-extern const UnitList<Length> kLengthUnits;                // m mm um nm pm
-extern const UnitList<Force> kForceUnits;                  // N mN uN nN pN
-extern const UnitList<Energy> kEnergyUnits;                // J aJ zJ
-extern const UnitList<Stiffness> kStiffnessUnits;          // N/m mN/m
-extern const UnitList<Velocity> kVelocityUnits;            // m/s mm/s um/s
-extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // J/m2 mJ/m2, also mN/m
-extern const UnitList<Pressure> kPressureUnits;            // TPa GPa MPa kPa Pa
+extern const UnitList<Length> kLengthUnits;                // units m mm um nm pm
+extern const UnitList<Force> kForceUnits;                  // units N mN uN nN pN
+extern const UnitList<Energy> kEnergyUnits;                // units J aJ zJ
+extern const UnitList<Stiffness> kStiffnessUnits;          // units N/m mN/m
+extern const UnitList<Velocity> kVelocityUnits;            // units m/s mm/s um/s
+extern const UnitList<SurfaceEnergy> kSurfaceEnergyUnits;  // units J/m2 mJ/m2, also mN/m
+extern const UnitList<Pressure> kPressureUnits;            // units TPa GPa MPa kPa Pa
 extern const Units kPlainNumber;                           // dimensionless
-extern const UnitList<Time> kTimeUnits;                    // s ms us
-extern const UnitList<Frequency> kFrequencyUnits;          // MHz kHz Hz
-extern const UnitList<Temperature> kTemperatureUnits;      // K
-extern const UnitList<Density> kDensityUnits;              // kg/m3
+extern const UnitList<Time> kTimeUnits;                    // units s ms us
+extern const UnitList<Frequency> kFrequencyUnits;          // units MHz kHz Hz
+extern const UnitList<Temperature> kTemperatureUnits;      // unit K
+extern const UnitList<Density> kDensityUnits;              // unit kg/m3
 
 enum class Infinity { Refused, Allowed };
 
 template <class Q>
 struct ParsedQuantity {
   std::optional<Q> value;
-  std::string error;  // one line with the legal units; empty if there is a value
+  std::string error;  // error in one line with the legal units; empty if there is a value
 };
 
-// "m, mm, um, nm, pm": the units shown in messages.
+// List of the units shown in messages: "m, mm, um, nm, pm".
 std::string list_units(std::span<const Unit> units);
 
-// The value in SI, or the error. Implementation of parse_quantity.
+// Reads a value in SI, or an error. Implementation of parse_quantity.
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity);
 
@@ -74,7 +74,7 @@ inline constexpr int kUsualDigits = 5;
 // Implementation of format_quantity.
 std::string format_si(double si, std::span<const Unit> units, int digits = kUsualDigits);
 
-// "100 pm to 1 mm", for a range in SI.
+// Range in SI as text: "100 pm to 1 mm".
 std::string range_text(double smallest, double largest, const Units& units);
 
 // Formats with `digits` significant digits (1 to 17), in the unit that leaves 1 to 1000 before the point if there is

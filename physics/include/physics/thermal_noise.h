@@ -11,10 +11,10 @@ namespace afm::physics {
 // sqrt(k_B T/k): root mean square of the deflection.
 Length thermal_deflection(Stiffness spring_constant, Temperature temperature);
 
-// sqrt(k_B T k): the same as a force on the lever.
+// sqrt(k_B T k): root mean square of the force on the lever.
 Force thermal_force(Stiffness spring_constant, Temperature temperature);
 
-// Power density of the force, one-sided: 4 k_B T k/(w0 Q). White.
+// Power density of the thermal force, one-sided: 4 k_B T k/(w0 Q). White.
 using ForceSpectrum = Quantity<2, 2, -3>;
 ForceSpectrum thermal_force_spectrum(Stiffness spring_constant, const LeverDynamics& lever);
 

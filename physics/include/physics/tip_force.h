@@ -57,8 +57,8 @@ class TipForce {
 
  private:
   struct Piece {
-    double force = 0.0;  // extrapolated to distance 0
-    double slope = 0.0;  // dF/d(distance)
+    double force = 0.0;  // force extrapolated to distance 0
+    double slope = 0.0;  // derivative of the force by the distance
   };
 
   static constexpr double kFirstOctave = 0x1p-40;
@@ -67,7 +67,7 @@ class TipForce {
   static constexpr int kDroppedBits = 52 - std::countr_zero(unsigned{kPiecesPerOctave});
   static constexpr std::uint64_t kFirstBits = std::bit_cast<std::uint64_t>(kFirstOctave) >> kDroppedBits;
 
-  // From the end of the branch, into it.
+  // Distance from the end of the branch, positive on the branch.
   double distance_of(double height, bool attached) const noexcept {
     return attached ? release_height_ - height : height - contact_height_;
   }
@@ -79,7 +79,7 @@ class TipForce {
   double contact_height_;
   double release_height_;
   double stiffness_ = 0.0;
-  std::array<std::vector<Piece>, 2> branches_;  // free, attached
+  std::array<std::vector<Piece>, 2> branches_;  // branch of the free tip, branch of the attached tip
 };
 
 }  // namespace afm::physics

@@ -72,7 +72,7 @@ class TipOscillator {
   }
 
   Length base() const noexcept { return Length(base_); }
-  Length deflection() const noexcept { return Length(deflection_); }  // z - Z: positive away from the sample
+  Length deflection() const noexcept { return Length(deflection_); }  // deflection z - Z, positive away from the sample
   Length height() const noexcept { return Length(base_ + deflection_); }
   Velocity velocity() const noexcept { return Velocity(swing_velocity_ + base_velocity_); }
   bool attached() const noexcept { return attached_; }
@@ -91,7 +91,7 @@ class TipOscillator {
   double spring_constant_;
   double sub_step_;
   double kick_;     // velocity change by half a kick B, m/s per newton
-  double damping_;  // c
+  double damping_;  // c, decay of the velocity in a sub-step
   double noise_;    // velocity noise of one O, m/s; 0 at 0 K
   Swing swing_;
 
@@ -101,7 +101,7 @@ class TipOscillator {
 
   double base_ = 0.0;
   double deflection_ = 0.0;
-  double swing_velocity_ = 0.0;  // v - Z'
+  double swing_velocity_ = 0.0;  // velocity relative to the base, v - Z'
   double force_ = 0.0;
   bool attached_ = false;
 };

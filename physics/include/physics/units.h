@@ -81,12 +81,12 @@ using Velocity = Quantity<0, 1, -1>;
 using Force = Quantity<1, 1, -2>;
 using Energy = Quantity<1, 2, -2>;
 using Torque = Quantity<1, 2, -2>;
-using Stiffness = Quantity<1, 0, -2>;      // N/m
-using SurfaceEnergy = Quantity<1, 0, -2>;  // J/m^2
+using Stiffness = Quantity<1, 0, -2>;      // unit N/m
+using SurfaceEnergy = Quantity<1, 0, -2>;  // unit J/m^2
 using Pressure = Quantity<1, -1, -2>;
-using Frequency = Quantity<0, 0, -1>;  // cycles per second
+using Frequency = Quantity<0, 0, -1>;  // cycles per second, not rad/s
 using Density = Quantity<1, -3, 0>;
-using Viscosity = Quantity<1, -1, -1>;  // dynamic
+using Viscosity = Quantity<1, -1, -1>;  // dynamic viscosity
 
 // Kelvin. A separate type, because no other unit here includes it.
 struct Temperature {

@@ -23,15 +23,15 @@ class VanDerWaals {
  public:
   VanDerWaals(Energy hamaker, Length tip_radius, const LawOptions& options = {});
 
-  Energy potential(Length gap) const noexcept;  // U, zero far away
+  Energy potential(Length gap) const noexcept;  // potential U, zero far away
   Force force(Length gap) const noexcept;
-  Stiffness gradient(Length gap) const noexcept;  // dF/dD
+  Stiffness gradient(Length gap) const noexcept;  // derivative of the force, dF/dD
 
   // The unique gap at which the force is `attraction` < 0.
   Length gap_at(Force attraction) const noexcept;
 
  private:
-  // without retardation
+  // values without retardation
   double bare_potential(double gap) const noexcept;
   double bare_force(double gap) const noexcept;
   double bare_gradient(double gap) const noexcept;
@@ -39,7 +39,7 @@ class VanDerWaals {
   double hamaker_;
   double radius_;
   bool exact_sphere_;
-  double retardation_per_metre_;  // 14/lambda, 0 if not retarded
+  double retardation_per_metre_;  // 14/lambda, 0 without retardation
 };
 
 // a0, the gap of two bodies in contact at which van der Waals attraction equals adhesion: F(a0) = -F_ad, where F_ad = 2

@@ -17,13 +17,13 @@ namespace afm::physics {
 
 namespace {
 
-// std::nth_element, but without a branch for each value, which a processor guesses wrong for half of the noise.
+// Like std::nth_element, but without a branch for each value, which a processor mispredicts for half of the noise.
 void put_in_place(std::vector<double>& values, std::size_t place) {
   constexpr std::size_t kFew = 12;
-  constexpr int kMostRounds = 40;  // rounds before nth_element takes over: values may be arranged against it
+  constexpr int kMostRounds = 40;  // number of rounds before nth_element takes over: values may be arranged against it
   double* const all = values.data();
   std::size_t low = 0, high = values.size();
-  // moves the values for which this holds to the front
+  // values that satisfy `holds` move to the front
   const auto part = [&](std::size_t from, const auto& holds) {
     std::size_t end = from;
     for (std::size_t i = from; i < high; ++i) {
@@ -57,7 +57,7 @@ double median(std::vector<double>& values) {
 }
 
 struct Stretch {
-  std::span<const CurvePoint> points;  // falling Z
+  std::span<const CurvePoint> points;  // points with falling Z
   Length z_far;
 };
 
@@ -79,7 +79,7 @@ std::vector<double> residuals_of(std::span<const CurvePoint> points, const Basel
 void level_on(const Stretch& stretch, Baseline& line) {
   line.level = Force();
   std::vector<double> residuals = residuals_of(stretch.points, line);
-  line.level = Force(median(residuals));  // in another order then
+  line.level = Force(median(residuals));  // reorders the residuals
   for (double& residual : residuals) residual = std::abs(residual - line.level.si);
   constexpr double kNormal = 1.4826;  // standard deviation of a normal distribution over the median of its magnitudes
   line.noise = Force(kNormal * median(residuals));
@@ -119,8 +119,8 @@ Baseline line_through(const Stretch& stretch, bool flat) {
 
 // Least squares of level, tilt, sine and cosine at one period.
 struct WaveFit {
-  std::array<double, 4> terms{};  // level, tilt over the stretch's length, sine, cosine
-  double residual = 0.0;          // sum of squares
+  std::array<double, 4> terms{};  // coefficients: level, tilt over the stretch's length, sine, cosine
+  double residual = 0.0;          // sum of squared residuals
 };
 
 // Solves the symmetric 4 x 4 system by elimination with pivots; a singular one gives zeros.
@@ -169,7 +169,7 @@ WaveFit fit_at(const Profile& profile, double periods) {
   return fit;
 }
 
-constexpr double kFewestPeriods = 1.0, kMostPeriods = 60.0;  // in the stretch
+constexpr double kFewestPeriods = 1.0, kMostPeriods = 60.0;  // limits of the number of periods in the stretch
 constexpr std::size_t kWaveBins = 512;
 
 // Number of periods in the stretch at which a wave leaves least, refined to a thousandth of the grid's step.

@@ -19,7 +19,7 @@ namespace {
 
 enum class Indenter { Sphere, Cone };
 
-// Two numbers that a processor adds or multiplies at once.
+// Two numbers that a processor adds or multiplies in one instruction.
 using Two = double __attribute__((vector_size(2 * sizeof(double))));
 
 Two two_at(const double* values) {
@@ -30,14 +30,14 @@ Two two_at(const double* values) {
 
 using TwoIntegers = std::int64_t __attribute__((vector_size(2 * sizeof(std::int64_t))));
 
-// The same bits.
+// The bits of two numbers as integers.
 TwoIntegers integers_in(const Two& two) {
   TwoIntegers bits;
   std::memcpy(&bits, &two, sizeof bits);
   return bits;
 }
 
-// Sums over the points that touch.
+// Sums over the points in contact.
 struct Sums {
   Two force{}, squares{}, with_rest{}, with_tilt{};
 
@@ -74,7 +74,7 @@ class ForceShape {
   // Two depths between nodes, the same for every shape.
   struct Places {
     TwoIntegers node{};
-    Two behind{};  // distances from the nodes
+    Two behind{};  // distances from the nodes on the shallow side
   };
   static Places places_of(const Two& depth) {
     // added to this number, one is rounded to an integer, and its last bits are that integer
@@ -89,13 +89,13 @@ class ForceShape {
   // Forces at the nodes, for a loop without checks.
   const double* nodes() const { return nodes_.data(); }
 
-  // Between two nodes.
+  // Force between two nodes.
   double at(std::int64_t node, double behind) const {
     const Two ends = two_at(nodes() + node);
     return ends[0] + behind * (ends[1] - ends[0]);
   }
 
-  // 0 outside the contact.
+  // Force at a depth, 0 outside the contact.
   double at(double depth) const {
     const Places place = places_of(Two{depth, depth});
     return depth <= 0.0 ? 0.0 : at(place.node[0], place.behind[0]);
@@ -107,7 +107,7 @@ class ForceShape {
   std::array<double, kSteps + 1> nodes_{};
 };
 
-// The shapes for evenly spaced shares of the lever, 1 MB for both indenters, made once in some milliseconds: a search
+// The shapes for evenly spaced shares of the lever, 1 MB for both indenters, built once in some milliseconds: a search
 // tries hundreds of shares.
 class ForceShapes {
  public:
@@ -132,7 +132,7 @@ class ForceShapes {
 
 // Fit with the contact at one place.
 struct PlaceFit {
-  double taken = -1.0;  // reduction of the sum of squares
+  double taken = -1.0;  // reduction of the sum of squares; -1: no fit
   double contact = 0.0;
   int share = 0;  // the lever's share in units of 1/ForceShapes::kShares
   Indenter indenter = Indenter::Sphere;
@@ -154,12 +154,12 @@ class Misfit {
     inner_rest_.assign(rest_.rbegin(), rest_.rend());
     inner_tilt_.assign(tilt_.rbegin(), tilt_.rend());
     inner_z_.assign(profile.z.rbegin(), profile.z.rend());
-    inner_z_.push_back(inner_z_.back());  // makes a pair for the last one
+    inner_z_.push_back(inner_z_.back());  // completes the last pair
   }
 
   double squares() const { return squares_; }
 
-  // The points that touch, from the deepest one, if the contact is there.
+  // The points in contact, from the deepest one, if the contact is there.
   struct Places {
     std::vector<std::int64_t> node;
     std::vector<double> behind;
@@ -288,9 +288,9 @@ class Misfit {
   const ApproachProfile& profile_;
   std::vector<double> rest_;
   double level_ = 0.0;                           // value of a constant line
-  std::vector<double> tilt_;                     // a straight line; orthonormal with the constant one
-  std::vector<double> inner_rest_, inner_tilt_;  // the same, from the deepest point
-  std::vector<double> inner_z_;                  // and one more
+  std::vector<double> tilt_;                     // tilted line; orthonormal with the constant one
+  std::vector<double> inner_rest_, inner_tilt_;  // values of the points inside, from the deepest one
+  std::vector<double> inner_z_;                  // heights of the points inside, plus one for a complete pair
   double squares_ = 0.0;
 };
 
@@ -301,7 +301,7 @@ std::vector<PlaceFit> fits_at_places(const Misfit& misfit, double low, double hi
   constexpr double kMuchWorse = 16.0;  // ratio of sums of squares; a range has at most 4
   std::vector<PlaceFit> fits;
   fits.reserve(2 * (kPlaces + 1 + kPasses * 2 * (kFiner - 1)));
-  double most = 0.0;  // taken by either
+  double most = 0.0;  // largest reduction by either indenter
   Misfit::Places places;
   for (const Indenter indenter : {Indenter::Sphere, Indenter::Cone}) {
     PlaceFit best;

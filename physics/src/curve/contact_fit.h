@@ -13,11 +13,11 @@ namespace afm::physics {
 
 // Means of the bins of an approach along Z, from the outermost inwards, none deeper than the strongest push.
 struct ApproachProfile {
-  std::vector<double> z;      // metres, falling
-  std::vector<double> force;  // newtons
+  std::vector<double> z;      // mean heights, metres, descending
+  std::vector<double> force;  // mean forces, newtons
 };
 
-// In bins of equal width, some of which may be empty.
+// Profile in bins of equal width, some of which may be empty.
 ApproachProfile profile_of(std::span<const CurvePoint> approach, std::size_t most_bins = 512);
 
 // The contact point of a fit, and the places whose fits are not significantly worse.
@@ -28,7 +28,7 @@ struct ContactFit {
   bool doubtful = false;
 };
 
-// By a method that needs the profile alone, neither ZeroForce nor FitPolynomial. Empty if it finds none.
+// Contact point by a method that needs only the profile: not ZeroForce, not FitPolynomial. Empty if it finds none.
 std::optional<double> contact_on(const ApproachProfile& profile, ContactMethod method);
 
 inline constexpr std::size_t kFewestFitBins = 5;

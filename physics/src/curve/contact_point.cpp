@@ -32,7 +32,7 @@ std::optional<double> by_deviation(const ApproachProfile& profile) {
   return crossing(profile, i - 1, level);
 }
 
-// Sums over the bins that touch, for contact points that move outwards.
+// Sums over the bins in contact, for contact points that move outwards.
 class Touching {
  public:
   explicit Touching(const ApproachProfile& profile) : profile_(profile), end_(profile.z.size()) {}
@@ -147,7 +147,7 @@ std::optional<double> by_gradient(const ApproachProfile& profile) {
   return profile.z[std::min(count - 1, i + reach)];
 }
 
-// Without a branch: the greatest and the least of four are not the median of five.
+// Median without a branch: the greatest and the least of four are not the median of five.
 double median_of(const std::array<double, 5>& five) {
   const auto [a, b, c, d, e] = five;
   const double inner_low = std::max(std::min(a, b), std::min(c, d)),

@@ -127,7 +127,7 @@ std::optional<ContactFit> estimate_contact(std::span<const CurvePoint> approach,
   return fit;
 }
 
-// For an approach with a push.
+// Finds the contact point of an approach with a push.
 void find_contact(std::span<const CurvePoint> approach, Force threshold, ForceZero zero_of_force,
                   std::optional<ContactMethod> method, CurveFeatures& features) {
   const ApproachProfile profile = profile_of(approach, kMostFitBins);

@@ -12,13 +12,13 @@ namespace afm::physics {
 
 // Neighbours along Z, combined to one point.
 struct CurveBin {
-  Length z;  // mean
+  Length z;  // mean height
   Force mean;
-  Force median;  // upper one for an even number; keeps a jump as sharp as the bins and rejects single outliers
+  Force median;  // median; upper one for an even number; keeps a jump as sharp as the bins, rejects single outliers
   Force middle;  // mean of the middle half: rejects single outliers, and preserves the area under the branch
 };
 
-// Requires rising values.
+// Mean of the middle half of values in rising order.
 inline Force middle_half(std::span<const double> values) {
   const std::size_t left_out = values.size() / 4;
   double sum = 0.0;
@@ -26,7 +26,7 @@ inline Force middle_half(std::span<const double> values) {
   return Force(sum / static_cast<double>(values.size() - 2 * left_out));
 }
 
-// Along rising Z; heights out of order, as from a sensor, come into order.
+// Sorts points by rising Z, for example from a noisy sensor.
 inline void put_in_order(std::vector<CurvePoint>& points) {
   const auto is_lower = [](const CurvePoint& a, const CurvePoint& b) { return a.z < b.z; };
   // most approaches are recorded from above
@@ -80,7 +80,7 @@ inline MeanBin mean_of(std::span<const CurvePoint> points) {
   return {sum.z / count, sum.mean / count};
 }
 
-// Bins as above, of at least one sample.
+// Means of the bins of for_each_bin() with at least one sample.
 inline std::vector<MeanBin> mean_bins(std::span<const CurvePoint> points, Length bottom, Length top,
                                       std::size_t most_bins) {
   std::vector<MeanBin> result;
@@ -90,7 +90,7 @@ inline std::vector<MeanBin> mean_bins(std::span<const CurvePoint> points, Length
   return result;
 }
 
-// Bins as above, with their medians.
+// Bins of for_each_bin() with their medians.
 inline std::vector<CurveBin> curve_bins(std::span<const CurvePoint> points, Length bottom, Length top,
                                         std::size_t most_bins, std::size_t fewest_samples) {
   std::vector<CurveBin> result;

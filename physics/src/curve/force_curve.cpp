@@ -51,7 +51,7 @@ ForceCurve record(Model model, const SweepPlan& plan) {
                                 text(thresholds.z_jtc) + ": start above it");
   }
 
-  // begins where the tip is free
+  // the path begins where the tip is free
   constexpr Length kHigher(1e-6);
   model.step(std::max(thresholds.z_joc, plan.from) + kHigher);
 

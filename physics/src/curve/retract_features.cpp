@@ -33,7 +33,7 @@ Energy work_below(std::span<const CurvePoint> points, Length top) {
   return work;
 }
 
-// From the zero crossing of the retract's force to the last significant pull beyond the strongest one.
+// Work from the zero crossing of the retract's force to the last significant pull beyond the strongest one.
 Energy work_of_separation(std::span<const CurvePoint> retract, std::size_t hardest, Force threshold) {
   std::size_t first = hardest, last = hardest;
   while (first > 0 && retract[first - 1].force.si < 0.0) --first;
@@ -58,13 +58,13 @@ std::optional<std::size_t> jump_off(std::span<const CurvePoint> retract, std::si
   // one sample of a filtered signal may already have begun to rise
   const auto last = retract.begin() + static_cast<std::ptrdiff_t>(*jump) + 1;
   const auto first = last - static_cast<std::ptrdiff_t>(std::min(kFilterSamples, *jump - hardest + 1));
-  // the last one of equal ones
+  // the last one of equal minima
   const auto deepest = std::min_element(std::make_reverse_iterator(last), std::make_reverse_iterator(first),
                                         [](const auto& a, const auto& b) { return a.force < b.force; });
   return static_cast<std::size_t>(deepest.base() - retract.begin()) - 1;
 }
 
-// For a curve that releases gradually.
+// Finds the release of a curve without a jump.
 void find_gradual_release(std::span<const CurvePoint> retract, Force threshold, CurveFeatures& features) {
   const auto [low, high] =
       std::minmax_element(retract.begin(), retract.end(), [](const auto& a, const auto& b) { return a.z < b.z; });

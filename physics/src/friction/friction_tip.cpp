@@ -33,7 +33,7 @@ std::optional<FrictionTip> make_tip(const FrictionContact& at, const std::varian
   return tip;
 }
 
-constexpr const FrictionTip* kTips = nullptr;  // only for its type
+constexpr const FrictionTip* kTips = nullptr;  // null pointer that carries only its type
 
 }  // namespace
 

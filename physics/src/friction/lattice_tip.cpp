@@ -9,17 +9,17 @@ namespace afm::physics {
 
 namespace {
 
-// In periods, except for counts and ratios. A step along the path is accepted if its prediction was good and the well
-// is not about to end; otherwise it is halved, or the end of the well is determined.
+// Lengths are in periods. A step along the path is accepted if its prediction was good and the well is not about to
+// end; otherwise it is halved, or the end of the well is determined.
 constexpr double kPathStep = 0.125;
 constexpr double kGoodPrediction = 0.04;
 constexpr double kLeastShareOfCurvature = 0.35;
-constexpr double kShortestStep = 1e-7;  // share of the path
-constexpr double kSlip = 0.02;          // shorter distances are no slip
+constexpr double kShortestStep = 1e-7;  // smallest step, as a fraction of the path
+constexpr double kSlip = 0.02;          // smallest distance of a slip; shorter motions are none
 constexpr double kParabola = 2.0;       // largest deviation of the end of a well from its parabola
 constexpr int kMostSteps = 200;
 constexpr int kMostIterations = 12;
-constexpr double kSettled = 1e-9;  // Newton's last step; its error is the square of it
+constexpr double kSettled = 1e-9;  // size of Newton's last step; its error is the square of it
 constexpr double kWellReach = 0.2;
 constexpr double kKick = 0.01;
 constexpr double kShortestRoll = 0.02, kLongestRoll = 0.06;

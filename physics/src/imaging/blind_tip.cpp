@@ -54,7 +54,7 @@ class BlindTip {
     return true;
   }
 
-  // Places of the tip that, as far as is known, may have touched the surface at the pixel.
+  // Finds positions of the tip that, as far as is known, may have touched the surface at the pixel.
   void find_touching(std::size_t pixel) {
     touching_.clear();
     const double here_m = image_.height_m[pixel];
@@ -99,7 +99,7 @@ class BlindTip {
   const HeightGrid& image_;
   std::size_t reach_x_, reach_y_;
   double threshold_m_;
-  std::vector<double> bound_m_;         // P, row by row
+  std::vector<double> bound_m_;         // upper bound of P, row by row
   std::vector<std::ptrdiff_t> offset_;  // offset of each tip position, in pixels of the image
   std::vector<std::size_t> touching_;
 };

@@ -9,7 +9,7 @@ namespace {
 
 struct BetweenPoints {
   std::size_t first, second;
-  double share;  // weight of the second one
+  double share;  // weight of the second of two neighbours
 };
 
 BetweenPoints between_points(double place_m, double first_m, double step_m, std::size_t count) {

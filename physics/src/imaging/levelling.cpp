@@ -46,7 +46,7 @@ void level_lines(const LevelGrid& grid) {
 
 struct LevelPlane {
   double slope_x = 0;
-  double slope_y = 0;  // per row, downwards
+  double slope_y = 0;  // slope per row, downwards
 };
 
 // Normal equations about the centre of the measured points.

@@ -28,7 +28,7 @@ std::vector<double> edge_of(std::span<const double> values, std::size_t columns,
 }
 
 std::function<double(double x_m, double y_m)> level_beyond_rim(std::shared_ptr<const HeightGrid> grid) {
-  constexpr double kSlope = 0.45;  // the steepest that is felt (haptics::SampleSurface)
+  constexpr double kSlope = 0.45;  // steepest slope that is felt (haptics::SampleSurface)
   const double column_m = std::abs(grid->column_step_m), row_m = std::abs(grid->row_step_m);
   const Rim rim(edge_of(grid->height_m, grid->columns, grid->rows),
                 0.5 * static_cast<double>(grid->columns - 1) * column_m,

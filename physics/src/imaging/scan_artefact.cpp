@@ -13,21 +13,21 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kLostShare = 0.95;        // share of a line's time; more means that the tip is not on the sample
-constexpr double kSecondApexShare = 0.02;  // share of a line's time
-constexpr double kRingingShare = 0.3;      // share of a line's time; less is the echo of steps
+constexpr double kLostShare = 0.95;        // share of a line's time; more without contact: the tip is not on the sample
+constexpr double kSecondApexShare = 0.02;  // share of a line's time on the second apex
+constexpr double kRingingShare = 0.3;      // share of a line's time with ringing; less is the echo of steps
 constexpr double kRingingGain = 0.8;       // share of the gain at which the loop oscillates; below it no loop rings
-constexpr double kDriftShare = 0.03;       // share of a side, during one frame
+constexpr double kDriftShare = 0.03;       // share of a side by which a sample drifts during one frame
 constexpr double kNoiseShare = 0.03;       // ratio of the noise's standard deviation to the relief
 constexpr double kOnlyNoise = 10.0;        // ratio of a relief to the noise that alone could make it
-constexpr double kParachuteShare = 0.004;  // share of a line's time; a shorter flight is invisible
-constexpr double kOverloadFactor = 3.0;    // multiple of the setpoint
+constexpr double kParachuteShare = 0.004;  // share of a line's time in flight; a shorter flight is invisible
+constexpr double kOverloadFactor = 3.0;    // largest force as a multiple of the setpoint
 constexpr double kStoppedShare = 0.9;      // share of the free amplitude that a stopped swing has lost
-constexpr double kNeitherDeg = 2.0;        // phases nearer to that of the free swing belong to neither state
+constexpr double kNeitherDeg = 2.0;        // degrees; phases closer to the free swing's belong to neither state
 constexpr std::size_t kSteadyPixels = 4;   // a swing that a step disturbs passes through both states in fewer
-constexpr double kLagShare = 0.015;        // share of a side; trace and retrace then differ visibly
-constexpr double kApartShare = 0.003;      // share of the relief; less is invisible
-constexpr double kBluntFactor = 1.5;       // multiple of the sharper tip's radius
+constexpr double kLagShare = 0.015;        // share of a side by which trace and retrace are visibly shifted
+constexpr double kApartShare = 0.003;      // share of the relief; a smaller difference of both passes is invisible
+constexpr double kBluntFactor = 1.5;       // tip radius as a multiple of the sharper tip's
 
 double median_magnitude(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -43,7 +43,7 @@ bool rings(const ScanConditions& conditions, const ScanEvidence& evidence) {
          settings.integral_gain > kRingingGain * conditions.largest_integral_gain;
 }
 
-// A sheared image, once a feature of the sample has moved by a pixel.
+// Returns whether the image is sheared: a feature of the sample has moved by a pixel.
 bool drifts(const ScanConditions& conditions, const ScanEvidence& evidence) {
   const ScanArea& area = conditions.area;
   const double frame_s = static_cast<double>(area.rows) / conditions.settings.line_rate.si;
@@ -105,7 +105,7 @@ ScanEvidence evidence_of(const ScanLine& line, double free_phase_deg) {
 
 std::size_t changes_of_state(std::span<const double> phase_deg, double free_phase_deg) {
   std::size_t changes = 0, lasts = 0;
-  double state = 0.0, candidate = 0.0;  // 1 attractive, -1 repulsive, 0 neither
+  double state = 0.0, candidate = 0.0;  // state of the swing: 1 attractive, -1 repulsive, 0 neither
   for (const double phase : phase_deg) {
     const double from_free_deg = phase - free_phase_deg;
     const double here = std::abs(from_free_deg) > kNeitherDeg ? std::copysign(1.0, from_free_deg) : 0.0;

@@ -11,8 +11,8 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kNoiseThresholds = 4.0;     // multiple of the rms that noise does not exceed
-constexpr double kRoundingOfHeight = 1e-15;  // m
+constexpr double kNoiseThresholds = 4.0;     // multiple of the rms that bounds the noise
+constexpr double kRoundingOfHeight = 1e-15;  // rounding error of a height, m
 
 HeightGrid height_of(const ScanImage& image) {
   HeightGrid grid;
@@ -24,7 +24,7 @@ HeightGrid height_of(const ScanImage& image) {
   return grid;
 }
 
-// As seen from above with the tip upside down: the apex is 0, its flanks are below.
+// The tip upside down, seen from above: the apex is 0, its flanks are below.
 std::vector<double> drawn_tip(const TipGrid& tip, const ScanImage& image) {
   const double lowest = -*std::max_element(tip.above_apex_m.begin(), tip.above_apex_m.end());
   std::vector<double> values(image.columns * image.rows, lowest);

@@ -22,7 +22,7 @@ struct HeldSwing {
   double z_m, u_m, v_m;
 };
 
-// The first one on the way down whose amplitude is no larger than the setpoint.
+// The first resting swing on the way down whose amplitude is no larger than the setpoint.
 std::optional<HeldSwing> first_held(const TapTable& rests, double setpoint_m) {
   const double step = rests.lever().free_amplitude.si / 2000.0;
   bool repelled = false;
@@ -94,7 +94,7 @@ TappingDetector::TappingDetector(TappingDetector&& other) noexcept = default;
 TappingDetector& TappingDetector::operator=(const TappingDetector& other) { return *this = TappingDetector(other); }
 TappingDetector& TappingDetector::operator=(TappingDetector&& other) noexcept = default;
 
-// At the resonance every image is that of earlier versions.
+// Flow of the averages; for a lever driven at its resonance every image is that of earlier versions.
 AveragedFlow TappingDetector::averaged_flow() const {
   const bool exact = harmonics_ == Harmonics::OfTheDrive && lever_.ratio != 1.0;
   return {surface_, lever_, exact ? AveragedFlow::Search::Exact : AveragedFlow::Search::AsFelt};

@@ -20,10 +20,10 @@ namespace {
 constexpr double kDmtBelow = 0.1;
 constexpr double kJkrAbove = 5.0;
 
-// Their Hertz: adhesion adds less than this share to the load.
+// Share of the load below which Johnson and Greenwood neglect adhesion: Hertz.
 constexpr double kNegligibleAdhesion = 0.05;
 
-// Their Rigid (Bradley): the contact flattens by less than this share of the range of the attraction, W/sigma0.
+// Flattening over the range of the attraction, W/sigma0, below which they call a contact rigid (Bradley).
 constexpr double kNegligibleFlattening = 0.05;
 
 // lambda/mu: 2 (16/(9 sqrt3)) cbrt(9/(16 pi)).

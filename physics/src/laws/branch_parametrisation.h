@@ -12,9 +12,9 @@ namespace afm::physics {
 
 // Extent of a branch outwards, into the sample, and in force against a wall: beyond the reach of any lever accepted by
 // validate() within a millimetre of travel.
-inline constexpr double kFarthest = 1e-3;     // m
-inline constexpr double kDeepest = 1e-3;      // m
-inline constexpr double kHardestPress = 1e3;  // N
+inline constexpr double kFarthest = 1e-3;     // largest height, m
+inline constexpr double kDeepest = 1e-3;      // largest depth, m
+inline constexpr double kHardestPress = 1e3;  // largest force against a wall, N
 
 // A force and its slope dF/dh.
 struct ForceAndSlope {

@@ -12,7 +12,7 @@ namespace {
 
 // Laws have their parameter logarithmic over their scales, so that a step of s is a step of scale.
 constexpr double kScanStep = 0.05;
-constexpr int kHalvings = 80;  // bisections of an interval of s, beyond the resolution of a double
+constexpr int kHalvings = 80;  // bisections of an interval of s, to beyond the resolution of a double
 
 // First point, kinks, last point.
 std::vector<double> corners_of(const LawBranch& branch) {
@@ -156,7 +156,7 @@ void EquilibriumBranch::find_end() {
 
 // Newton's method, with bisection outside the bracket; Z increases from low to high along the stretch.
 double EquilibriumBranch::solve(double z, double guess, double low, double high, Point& solution) const {
-  constexpr double kSmallStep = 1e-7;  // its square, the error of the step after it, is below rounding
+  constexpr double kSmallStep = 1e-7;  // size of a step whose square, the error of the next one, is below rounding
   double s = guess;
   for (int i = 0; i < 2 * kHalvings; ++i) {
     solution = at(s);
@@ -187,7 +187,7 @@ std::optional<double> EquilibriumBranch::at_z(double z) const {
 BranchTable::Piece EquilibriumBranch::piece(double from, double to, double end_z, double reach) const {
   // below this fraction of the end's Z, rounding hides the branch
   constexpr double kNearest = 0x1p-36;
-  constexpr double kSmallestScale = 1e-10;  // m, for a branch that ends at Z = 0
+  constexpr double kSmallestScale = 1e-10;  // scale for a branch that ends at Z = 0, m
   const Point start = at(from);
   const double last_distance = std::min(reach, std::abs(at(to).z - start.z));
   BranchTable::Piece piece;

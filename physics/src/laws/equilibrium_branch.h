@@ -42,7 +42,7 @@ class EquilibriumBranch {
   BranchTable table(double reach) const;
 
  private:
-  // Positive where the tip can rest.
+  // Rate dZ/ds with the sign of motion: positive where the tip can rest.
   double rate(double s) const;
   double fold_between(double stable, double unstable) const;
   void find_end();
@@ -52,12 +52,12 @@ class EquilibriumBranch {
 
   const LawBranch& branch_;
   double compliance_;
-  double sign_;  // sign of dZ/ds on the stable stretch
+  double sign_;  // +1 or -1, sign of dZ/ds on the stable stretch
   double end_ = 0.0;
   bool folded_ = false;
 };
 
-// The same curve in the opposite direction.
+// The branch in the opposite direction.
 LawBranch reversed(const LawBranch& branch);
 
 // The largest positive dF/dh of a branch: a lever of at least this stiffness does not fold it. Infinite if h turns back

@@ -8,7 +8,7 @@
 namespace afm::physics {
 namespace {
 
-// The same for a value without a unit list.
+// Throws as require_range() of require_range.h, for a value without a unit list.
 void require_range(const std::string& field, double value, double smallest, double largest, const std::string& what) {
   if (value >= smallest && value <= largest) return;
   throw UnphysicalValue(field, what + " " + std::to_string(value) + " is not within " + std::to_string(smallest) +

@@ -133,12 +133,12 @@ class Builder {
     figures.lost_at_joc = figures.loop_energy - figures.lost_at_jtc;
   }
 
-  // Energy in lever and support.
+  // Energy stored in lever and support.
   double stored(const Rest& rest) const { return 0.5 * compliance_ * rest.force * rest.force; }
 
   Energy lost_at_jtc(const Rest& from, const Rest& to, Energy loop) const {
     if (single_valued_) {
-      // along the single curve; cannot be negative apart from rounding
+      // drop along the single curve; cannot be negative apart from rounding
       const double lost = potential_rise(law_.attached, to.s, -from.s) + stored(from) - stored(to);
       return Energy(std::clamp(lost, 0.0, loop.si));
     }
@@ -152,7 +152,7 @@ class Builder {
   // The force continues beyond the first point of the free branch as the same power of h.
   static double falling_exponent(const LawPoint& far) { return -far.dforce_ds / far.dh_ds * far.h.si / far.force.si; }
 
-  // Rest of a lever that is so soft that it lets go where the law has no points any more.
+  // Rest of a lever that is so soft that it releases the tip beyond the law's last point.
   Rest rest_beyond_law(double z) const {
     const LawPoint far = free_curve_.at(free_curve_.first);
     const double force = far.force.si == 0.0 ? 0.0 : far.force.si * std::pow(far.h.si / z, falling_exponent(far));
@@ -177,7 +177,7 @@ class Builder {
 
   void tabulate() {
     // beyond, the table extrapolates a branch: ten times the cycle, and enough for a stroke of a few micrometres
-    constexpr double kShortest = 4e-6;  // m
+    constexpr double kShortest = 4e-6;  // shortest reach of a table, m
     const double reach = std::max(kShortest, 10.0 * std::abs(tables_.figures.z_joc.si));
     tables_.free = free_.table(reach);
     tables_.attached = attached_.table(reach);

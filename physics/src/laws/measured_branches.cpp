@@ -53,8 +53,8 @@ std::uint32_t put_jump(std::vector<MeasuredPoint>& branch, const MeasuredPoint& 
   return static_cast<std::uint32_t>(last + 1);
 }
 
-// Beyond the last significant force an instrument records its own baseline, which would be felt as a wave, and could be
-// too strong for Turn-On.
+// Flattens the branch beyond the last significant force, where an instrument records its own baseline, which would be
+// felt as a wave, and could be too strong for Turn-On.
 void flatten_beyond(std::vector<MeasuredPoint>& approach, Length off, Force noise) {
   const Force significant = 5.0 * noise;
   for (auto point = approach.rbegin(); point->z > off && abs(point->force) < significant; ++point) {

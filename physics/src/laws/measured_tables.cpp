@@ -94,7 +94,7 @@ Energy area(const Upper& upper, const BranchTable& lower, Length from, Length to
 
 // Points of each branch on either side of its jump.
 struct Cut {
-  std::span<const MeasuredPoint> pressed;  // empty: unknown
+  std::span<const MeasuredPoint> pressed;  // points below the jump of the approach; empty: unknown
   std::span<const MeasuredPoint> free;
   std::span<const MeasuredPoint> attached;
 };

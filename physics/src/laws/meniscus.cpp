@@ -35,10 +35,10 @@ Force capillary_force(const Meniscus& meniscus, Length tip_radius) noexcept {
 }
 
 Length film_height(const Meniscus& meniscus) noexcept {
-  constexpr double kHamaker = 1e-20;            // J
-  constexpr double kGasConstant = 8.314462618;  // J/(mol K)
-  constexpr double kTemperature = 293.15;       // K
-  constexpr double kMolarVolume = 18.05e-6;     // m^3/mol, water
+  constexpr double kHamaker = 1e-20;            // Hamaker constant of the water film, J
+  constexpr double kGasConstant = 8.314462618;  // molar gas constant, J/(mol K)
+  constexpr double kTemperature = 293.15;       // room temperature, K
+  constexpr double kMolarVolume = 18.05e-6;     // molar volume of water, m^3/mol
   const double pressure = kGasConstant * kTemperature / kMolarVolume * std::log(1.0 / meniscus.relative_humidity);
   return Length(std::cbrt(kHamaker / (6.0 * pi * pressure)));
 }

@@ -17,9 +17,9 @@ using Complex = std::complex<double>;
 // from 0 on; its integrand decays doubly exponentially, so the trapezoidal rule reaches full precision.
 Complex bessel_k_ratio(Complex z) {
   constexpr double kStep = 0.02;
-  constexpr double kNegligible = 45.0;  // exp(-45) is below the last bit
+  constexpr double kNegligible = 45.0;  // exponent beyond which exp(-x) is below the last bit
 
-  Complex k0 = 0.5, k1 = 0.5;  // exp(z) K(z) at t = 0
+  Complex k0 = 0.5, k1 = 0.5;  // terms at t = 0 of exp(z) K(z)
   for (int i = 1;; ++i) {
     const double t = kStep * i;
     const Complex exponent = -z * (std::cosh(t) - 1.0);

@@ -55,7 +55,7 @@ void TipOscillator::settle(Length base, Velocity base_velocity) noexcept {
   // Newton's method on F(z) + k (Z - z) descends from Z to the upper equilibrium, since the attraction steepens towards
   // the sample
   Length height = base;
-  double softening = 0.0;  // F'/k
+  double softening = 0.0;  // softening of the lever by the surface, F'/k
   bool attached = false;
   for (int i = 0; i < kLongestSearch; ++i) {
     const Force force = (*surface_)(height, attached);

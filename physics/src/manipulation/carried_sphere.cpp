@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostSettling = 16;
 constexpr int kSettleHalvings = 8;
-constexpr double kSettledGain = 1e-12;  // smallest gain of a step that counts, as a share of the energy
+constexpr double kSettledGain = 1e-12;  // smallest gain of a step that counts, as a fraction of the energy
 
 }  // namespace
 

@@ -38,20 +38,20 @@ class CarriedSphere {
             double touches_at_m) noexcept;
   void drop() noexcept { particle_ = kNoParticle; }
 
-  const Flat& from() const noexcept { return from_; }  // place where it was taken
+  const Flat& from() const noexcept { return from_; }  // place on the sample from which the sphere was taken
   Flat place(const Apex& apex) const noexcept { return {apex.x + offset_.x, apex.y + offset_.y}; }
   double height_m(const Apex& apex) const noexcept { return apex.height - lowest_apex_m_; }  // lowest point
   bool lies(const Apex& apex) const noexcept { return apex.height <= lowest_apex_m_; }
 
   // Obstacles near tip and sphere, for the calls below.
   void begin() noexcept { count_ = 0; }
-  bool add(const Obstacle& obstacle) noexcept;  // false: full
+  bool add(const Obstacle& obstacle) noexcept;  // false: no room for another obstacle
 
   // True if the apex rests at the base, or above it where the sphere lies, and nothing else touches.
   bool is_free(const Apex& base, const Apex& apex) const noexcept;
 
   double energy_j(const Apex& base, const Apex& apex) const noexcept;
-  double pressed_j(const Apex& apex) const noexcept;  // energy of the sphere's contacts only
+  double pressed_j(const Apex& apex) const noexcept;  // energy of the contacts of the carried sphere only
 
   // Moves the apex by at most `reach_m` to less energy, no lower than where the sphere lies on the sample. True if it
   // then rests.
@@ -77,8 +77,8 @@ class CarriedSphere {
   PushSprings springs_;
   std::size_t particle_ = kNoParticle;
   double radius_m_ = 0.0;
-  Flat offset_;                 // centre of the sphere from the apex
-  double lowest_apex_m_ = 0.0;  // height of the apex when the sphere lies on the sample
+  Flat offset_;                 // position of the sphere's centre relative to the apex
+  double lowest_apex_m_ = 0.0;  // height of the apex at which the sphere lies on the sample
   Flat from_;
   std::array<Obstacle, kMostObstacles> obstacles_{};
   std::size_t count_ = 0;

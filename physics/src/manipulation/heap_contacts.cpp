@@ -114,7 +114,7 @@ HeapContacts::Nearest HeapContacts::nearest_of(const Pair& pair, const Outline& 
     const Flat end = along(second, pair.second_end * second.half_m);
     return {nearest_on(first, end), end};
   }
-  return {nearest_on(first, second.at), nearest_on(second, first.at)};  // one of them is a sphere
+  return {nearest_on(first, second.at), nearest_on(second, first.at)};  // nearest points, if one body is a sphere
 }
 
 // Derivative with a rod's turn of the way of a point of it along a unit vector.
@@ -172,7 +172,7 @@ double HeapContacts::lever_change(const Apex& to) const noexcept {
   return 0.5 * (springs_.lateral.si * sideways + springs_.normal.si * upwards);
 }
 
-// By a difference where both contacts are on the same side of the tip.
+// Change of a contact's energy, computed as a difference if both contacts are on the same side of the tip.
 double HeapContacts::tip_change(std::size_t i, const Place& to, const Apex& apex) const noexcept {
   const TipContact &was = tips_[i], &now = tips_then_[i];
   const double depth0 = was.overlap.depth_m, depth1 = now.overlap.depth_m, k = 0.5 * springs_.contact.si;
@@ -180,7 +180,7 @@ double HeapContacts::tip_change(std::size_t i, const Place& to, const Apex& apex
   if (!acts(i, now)) return -k * depth0 * depth0;
   const TipProfile& profile = *bodies_[i].profile;
   const double flank = profile.flank_sine(), rise = apex.height - apex_.height;
-  const bool rod = bodies_[i].is_rod() || bodies_[i].core_m > 0.0;  // its nearest point moves along it
+  const bool rod = bodies_[i].is_rod() || bodies_[i].core_m > 0.0;  // true: the nearest point moves along the body
   const double dx = rod ? now.x - was.x : (to.at.x - bodies_[i].at.x) - (apex.x - apex_.x);
   const double dy = rod ? now.y - was.y : (to.at.y - bodies_[i].at.y) - (apex.y - apex_.y);
   const double squares = dx * (was.x + now.x) + dy * (was.y + now.y);

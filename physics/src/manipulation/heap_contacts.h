@@ -26,7 +26,7 @@ namespace afm::physics {
 class HeapContacts {
  public:
   static constexpr std::size_t kMostActive = 16;
-  static constexpr std::size_t kMostLinks = 24;  // pairs of a body
+  static constexpr std::size_t kMostLinks = 24;  // largest number of pairs per body
   static constexpr std::size_t kMostPairs = 256;
 
   // Place of a body. A rod has turned about its middle: its front end has gone across by `turned_m` more than that.
@@ -40,49 +40,49 @@ class HeapContacts {
     std::size_t particle = 0;
     const TipProfile* profile = nullptr;
     Flat start, at;
-    double rest_n = 0.0;    // friction that it needs to begin; of a rod, sideways
-    double moving_n = 0.0;  // f_k
+    double rest_n = 0.0;    // friction that must be overcome to start a motion; for a rod, sideways
+    double moving_n = 0.0;  // friction during motion, f_k
     bool pinned = false;
-    bool near_tip = false;  // the tip may touch it
+    bool near_tip = false;  // true: the tip may touch the body
     double half_m = 0.0;    // half length of a rod; 0: none
     double core_m = 0.0;    // flat radius of an island, which a heap pushes like a sphere; 0: none
     Flat start_axis{1.0, 0.0}, axis{1.0, 0.0};
     double turned_m = 0.0;
-    TipPull pull;  // adhesion of the tip; a tip that adheres also pulls
+    TipPull pull;  // adhesion of the tip; positive: the tip also pulls
 
     bool is_rod() const { return half_m > 0.0; }
     bool moved() const { return at.x != start.x || at.y != start.y || turned_m != 0.0; }
     Place place() const { return {at, turned_m, axis}; }
     Outline outline(const Place& there) const { return {there.at, there.axis, half_m, core_m}; }
-    Place place_at(const Flat& there, double turned_there_m) const;  // axis by the turn
-    RodVector motion_to(const Place& there) const;                   // from the start, in the frame of the start
+    Place place_at(const Flat& there, double turned_there_m) const;  // place with the axis turned accordingly
+    RodVector motion_to(const Place& there) const;                   // motion from the start, in the frame of the start
   };
 
   // Two bodies that touch at `distance_m`; one of them may be no part of the heap and stay where it is. Two rods touch
   // where an end of one meets the other: one pair for each end, +1 or -1, of first or second.
   struct Pair {
     std::size_t first = 0;
-    std::size_t second = kMostActive;  // kMostActive: it stays
+    std::size_t second = kMostActive;  // index of the second body; kMostActive: a body outside the heap, which stays
     Outline stays;
     double distance_m = 0.0;
     int first_end = 0, second_end = 0;
   };
 
-  // Tip and body.
+  // Contact of tip and body.
   struct Normal {
-    double overlap_m = -1.0;          // positive: they touch
-    bool acts = false;                // they touch, or the tip holds the body
+    double overlap_m = -1.0;          // overlap of tip and body; positive: they touch
+    bool acts = false;                // true: tip and body touch, or the tip holds the body
     std::array<double, 3> towards{};  // gradient of the overlap with the apex
     double apart_m = 1.0;             // radius of curvature of the overlap
-    bool ball = false;                // the cap: curved along the vertical as well
+    bool ball = false;                // true: contact on the cap, which is also curved along the vertical
     double turning = 0.0;             // derivative of the overlap with the turn of a rod
   };
 
-  // Two bodies.
+  // Contact of two bodies.
   struct Touch {
-    double overlap_m = -1.0;                           // positive: they touch
+    double overlap_m = -1.0;                           // overlap of both bodies; positive: they touch
     double apart_m = 1.0;                              // distance of the nearest points of their axes
-    std::array<double, 2> u{};                         // from the second to the first
+    std::array<double, 2> u{};                         // unit vector from the second to the first
     double turning_first = 0.0, turning_second = 0.0;  // derivatives of the distance with the turns of rods
   };
 
@@ -99,8 +99,8 @@ class HeapContacts {
 
   // Begins a sub-step without bodies.
   void begin(const Apex& base, const Apex& apex) noexcept;
-  bool add(const Body& body) noexcept;  // false: full
-  bool add(const Pair& pair) noexcept;  // after its bodies; false: full
+  bool add(const Body& body) noexcept;  // false: no room for another body
+  bool add(const Pair& pair) noexcept;  // adds a pair after its bodies; false: no room for another pair
 
   // Number of the body of this particle; size() if there is none.
   std::size_t find(std::size_t particle) const noexcept;
@@ -108,8 +108,8 @@ class HeapContacts {
   // Looks for contacts where all parts are. Call it after the bodies and pairs, before anything below.
   void find_contacts() noexcept;
 
-  double stored() const noexcept;    // E
-  double friction() const noexcept;  // R
+  double stored() const noexcept;    // stored energy E
+  double friction() const noexcept;  // friction work R
 
   // The bodies that the following steps move, in their order.
   void choose(std::span<const std::size_t> movers) noexcept;
@@ -119,7 +119,7 @@ class HeapContacts {
   // Takes the step whose change was computed last.
   void take(const Step& step) noexcept;
 
-  Normal normal_of(std::size_t body) const noexcept;  // a gap if the tip is not near
+  Normal normal_of(std::size_t body) const noexcept;  // contact with the tip; negative overlap if the tip is not near
   Touch touch_of(std::size_t pair) const noexcept;
 
   // Contacts after the step whose change was computed last. Valid only for the bodies that it moves.
@@ -175,9 +175,9 @@ class HeapContacts {
   std::array<Body, kMostActive> bodies_{};
   std::array<Pair, kMostPairs> pairs_{};
   std::array<std::size_t, kMostActive> near_{};
-  std::array<TipContact, kMostActive> tips_{}, tips_then_{};                // now, and after the step computed last
-  std::array<double, kMostPairs> apart_m_{}, apart_then_m_{};               // distances of pairs, now and then
-  std::array<std::array<std::uint16_t, kMostLinks>, kMostActive> links_{};  // pairs of a body
+  std::array<TipContact, kMostActive> tips_{}, tips_then_{};                // tip contacts: now, after the newest step
+  std::array<double, kMostPairs> apart_m_{}, apart_then_m_{};               // gaps of pairs: now, after the newest step
+  std::array<std::array<std::uint16_t, kMostLinks>, kMostActive> links_{};  // indices of the pairs of each body
   std::array<std::size_t, kMostActive> link_count_{};
   std::array<std::size_t, kMostActive> mover_{};
   std::size_t count_ = 0, pair_count_ = 0, near_count_ = 0;

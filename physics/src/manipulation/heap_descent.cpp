@@ -21,13 +21,13 @@ using System = HeapSystem;
 using Normal = HeapContacts::Normal;
 using Touch = HeapContacts::Touch;
 
-constexpr double kTinyGain = 1e-12;       // smallest gain of a round that counts, as a share of E + R
-constexpr double kLeastStiffness = 1e-6;  // share of a contact's stiffness
+constexpr double kTinyGain = 1e-12;       // smallest gain of a round that counts, as a fraction of E + R
+constexpr double kLeastStiffness = 1e-6;  // added stiffness as a fraction of a contact's
 constexpr int kMostHalvings = 8;
 constexpr int kMostAttempts = 3;         // solutions for one Newton step, each with other contacts
-constexpr double kSolvingShare = 0.02;   // work of a solution per cube of its size
-constexpr int kNewtonSteps = 3;          // in a round, and of the tip at the start
-constexpr double kRestRounding = 1e-12;  // share by which a force must exceed a threshold
+constexpr double kSolvingShare = 0.02;   // work of a solution per cube of the system's size
+constexpr int kNewtonSteps = 3;          // Newton steps in a round, and of the tip at the start
+constexpr double kRestRounding = 1e-12;  // fraction by which a force must exceed a threshold
 
 using Move = std::array<double, kMostUnknowns>;
 
@@ -64,13 +64,13 @@ class Descent {
   Apex start_;
   double reach_m_;
   double& work_;
-  double gained_j_ = 0.0;                                          // in this round
+  double gained_j_ = 0.0;                                          // energy gained in this round
   std::array<std::size_t, HeapContacts::kMostActive + 1> rows_{};  // first row of each mover, and the end
-  double tiny_j_ = 0.0;                                            // gain of a round that does not count
-  std::size_t links_ = 0;                                          // contacts of the parts that a Newton step moves
+  double tiny_j_ = 0.0;                                            // largest gain of a round that does not count
+  std::size_t links_ = 0;                                          // contacts of the parts moved by a Newton step
   std::array<bool, HeapContacts::kMostActive> tip_foreseen_{};
   std::array<bool, HeapContacts::kMostPairs> pair_foreseen_{};
-  bool at_limit_ = false;  // a part has moved by reach_m_
+  bool at_limit_ = false;  // true: a part has moved by reach_m_
 };
 
 bool Descent::take_if_lower(const Step& step, double change_j) noexcept {
@@ -110,7 +110,7 @@ bool Descent::settle(std::size_t i) noexcept {
   const Flat force = pull_on(i, spring);
   const double size = std::sqrt(force.x * force.x + force.y * force.y);
   if (!body.moved() && size <= body.rest_n * (1.0 + kRestRounding)) return false;
-  if (!(spring > 0.0)) spring = heap_.springs().contact.si;  // friction alone: back to where it started
+  if (!(spring > 0.0)) spring = heap_.springs().contact.si;  // friction only: back to the start
   const double f = body.moving_n;
   const Flat was = body.at, start = body.start;
   const double zx = was.x + force.x / spring - start.x, zy = was.y + force.y / spring - start.y;
@@ -236,7 +236,7 @@ bool Descent::solve(const Step& movers, bool foreseen, Move& move) noexcept {
   return false;
 }
 
-// Proposes a share of a move. Friction has a kink where a body started: one that would go back past it stops there.
+// Proposes a part of a move. Friction has a kink where a body started: a body that would go back past it stops there.
 void Descent::propose(Step& step, const Move& move, double share) const noexcept {
   const Apex& was = heap_.apex();
   step.apex = {was.x + share * move[0], was.y + share * move[1], std::max(0.0, was.height + share * move[2])};

@@ -20,7 +20,7 @@ struct HeapSystem {
 
   std::size_t size;
   std::array<double, kMostUnknowns> gradient{};
-  std::array<std::array<double, kMostUnknowns>, kMostUnknowns> stiffness;  // size x size are set
+  std::array<std::array<double, kMostUnknowns>, kMostUnknowns> stiffness;  // valid up to size x size
 };
 
 inline std::size_t unknowns_of(const HeapContacts::Body& body) noexcept { return body.is_rod() ? 3 : 2; }

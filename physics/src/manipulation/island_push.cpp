@@ -10,17 +10,17 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kIslandStepShare = 1.0 / 200.0;  // share of the distance of the axes
+constexpr double kIslandStepShare = 1.0 / 200.0;  // step size as a share of the distance of the axes
 constexpr int kMostIslandSteps = 64;
 // A base closer to the middle than this share of the distance of the axes: the tip is about to run over.
 constexpr double kClosestIslandBase = 0.05;
-constexpr double kYieldRounding = 1e-12;  // share by which a load must exceed a threshold
-constexpr double kProbeWay = 1e-12;       // way over which the stiffness along the normal is measured, in metres
+constexpr double kYieldRounding = 1e-12;  // fraction by which a load must exceed a threshold
+constexpr double kProbeWay = 1e-12;       // probe distance for the stiffness along the normal, m
 constexpr int kTurnRounds = 3, kPlaceRounds = 3, kSlipRounds = 8, kReturnRounds = 40;
 
 Flat across_normal(const Flat& normal) noexcept { return {-normal.y, normal.x}; }
 double inner(const Flat& a, const Flat& b) noexcept { return a.x * b.x + a.y * b.y; }
-// Of a unit vector by a small angle.
+// A unit vector rotated by a small angle.
 Flat rotated_by(const Flat& unit, double angle_rad) noexcept {
   const double half = 0.5 * angle_rad;
   return turned(unit, half * (1.0 + half * half / 3.0));
@@ -78,7 +78,7 @@ class IslandWalk {
       base_ = {base_.x + std::max(0.0, before_m) * ahead.x, base_.y + std::max(0.0, before_m) * ahead.y};
     }
     const double distance_m = distance_between(path_.at, base_);
-    if (!(distance_m > 0.0)) {  // exactly above the middle
+    if (!(distance_m > 0.0)) {  // base exactly above the middle
       normal_ = {1.0, 0.0};
       return true;
     }
@@ -136,10 +136,10 @@ class IslandWalk {
     const double further_n = contact_.force_at(along_m() - kProbeWay - rim_.core_m, z_m_);
     const double k_n = (further_n - tried.along_n) / kProbeWay;
     if (!(further_n >= 0.0 && k_n > 0.0 && distance_m > 0.0)) return false;
-    const double turns = kIslandArm2 * (before_m / distance_m);  // share of the turn in the way across
+    const double turns = kIslandArm2 * (before_m / distance_m);  // part of the turn that is motion across
     const Flat first = normal_, first_across = across_normal(normal_);
     Return to;
-    double turn_rad = 0.0;  // turn of the normal
+    double turn_rad = 0.0;  // angle by which the normal turns
     for (int i = 0; i < kTurnRounds; ++i) {
       const double half = 0.5 * turn_rad;
       to = returned(
@@ -151,7 +151,7 @@ class IslandWalk {
     path_.at.x += to.flow * (to.force.along_n * middle.x + to.force.across_n * across.x);
     path_.at.y += to.flow * (to.force.along_n * middle.y + to.force.across_n * across.y);
     normal_ = rotated_by(first, turn_rad);
-    // what the steps above leave in second order
+    // remainder of second order after the steps above
     for (int i = 0; i < kPlaceRounds; ++i) {
       force_ = force();
       if (!(force_.along_n > 0.0)) return false;

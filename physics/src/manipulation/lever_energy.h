@@ -6,7 +6,7 @@
 namespace afm::physics {
 
 struct Apex {
-  double x = 0.0, y = 0.0, height = 0.0;  // SI
+  double x = 0.0, y = 0.0, height = 0.0;  // position, metres
 };
 
 // Energy of a lever whose base is away from the apex.

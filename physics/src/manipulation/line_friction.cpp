@@ -14,7 +14,7 @@ constexpr double kSmallTurn = 0.1;
 // Smallest way along the axis, as a share of the motion, with which the closed form is evaluated.
 constexpr double kLeastAlong = 1e-14;
 constexpr int kPivotSteps = 40, kStepHalvings = 40;
-constexpr double kFlat = 1e-6;  // curvature over which a step of driven_motion() counts
+constexpr double kFlat = 1e-6;  // small curvature that keeps a step of driven_motion() finite
 
 struct Node {
   double place, weight;
@@ -145,7 +145,7 @@ DrivenMotion driven_motion(const RodVector& load) noexcept {
     const double determinant = uu * vv - uv * uv;
     if (!(determinant > 0.0)) break;
     double du = -(vv * gu - uv * gv) / determinant, dv = -(uu * gv - uv * gu) / determinant;
-    const double far = std::max(1.0, std::sqrt(du * du + dv * dv));  // no further than the motion is long
+    const double far = std::max(1.0, std::sqrt(du * du + dv * dv));  // step no longer than the motion
     du /= far;
     dv /= far;
     bool gains = false;

@@ -21,13 +21,13 @@ struct MeanWay {
 };
 MeanWay mean_way(const RodVector& motion) noexcept;
 
-// Second derivatives, for a motion that is not zero. Those along the axis have a singularity where a point of the rod
-// does not move; they are finite here.
+// Second derivatives of the mean way, for a motion that is not zero. Those along the axis have a singularity where a
+// point of the rod does not move; they are finite here.
 RodMatrix mean_way_curvature(const RodVector& motion) noexcept;
 
 // The motion that a load drives with the most work per mean way.
 struct DrivenMotion {
-  double force = 0.0;  // work over way: the rod moves if this exceeds the force that moves it sideways
+  double force = 0.0;  // work over way: the rod moves if this exceeds the force needed to move it sideways
   RodVector motion{};
 };
 DrivenMotion driven_motion(const RodVector& load) noexcept;

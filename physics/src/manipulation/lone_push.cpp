@@ -52,7 +52,7 @@ class LoneWalk {
       const bool ages = ages_at_once_ && thresholds_.rest_n > thresholds_.moving_n;
       if (!ages) return slide();
     }
-    return false;  // more slips than a sub-step may have
+    return false;  // false: more slips than a sub-step may have
   }
 
   // Way until the lever pushes with the threshold; infinite if it never does.
@@ -72,7 +72,7 @@ class LoneWalk {
     left_m_ -= way_m;
   }
 
-  // Goes on while the sphere stays. False if the tip cannot.
+  // Loads the lever while the sphere stays in place. False if the tip cannot go on.
   bool load(double way_m) noexcept {
     const double before_j = energy_j_;
     if (!settle(way_m)) return false;
@@ -184,7 +184,7 @@ bool LoneContact::lean_on_cap(double lateral_n, double z_m, double from_m, doubl
   apex_m = from_m;
   for (int i = 0; i < 60; ++i) {
     const double drop_m = apex_m + profile_.cap_offset_m();
-    for (int inner = 0; inner < 8; ++inner) {  // the overlap that bears N at this height
+    for (int inner = 0; inner < 8; ++inner) {  // search for the overlap that bears N at this height
       const double apart_m = sum_m - depth_m;
       if (!(drop_m < apart_m)) return false;
       sine = drop_m / apart_m;
@@ -214,7 +214,7 @@ double LoneContact::force_at(double base_m, double z_m) const noexcept {
   double low = 0.0, high = (touch.base_m - base_m) * springs_.lateral.si;
   double low_m = touch.base_m - base_m;
   Leaning at = under(high, z_m);
-  for (int i = 0; i < 60 && !at.holds; ++i) {  // find a force that the tip bears
+  for (int i = 0; i < 60 && !at.holds; ++i) {  // search for a force that the tip bears
     high *= 0.5;
     at = under(high, z_m);
   }
@@ -222,7 +222,7 @@ double LoneContact::force_at(double base_m, double z_m) const noexcept {
   double high_m = at.base_m - base_m;
   if (high_m > 0.0) return -1.0;
   int side = 0;
-  for (int i = 0; i < 100; ++i) {  // regula falsi, Illinois
+  for (int i = 0; i < 100; ++i) {  // regula falsi, Illinois variant
     const double middle = (high * low_m - low * high_m) / (low_m - high_m);
     at = under(middle, z_m);
     const double gap_m = at.base_m - base_m;

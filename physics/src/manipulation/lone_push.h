@@ -11,7 +11,7 @@
 namespace afm::physics {
 
 struct Flat {
-  double x = 0.0, y = 0.0;  // SI, in the plane of the sample
+  double x = 0.0, y = 0.0;  // metres in the plane of the sample
 };
 
 inline double distance_between(const Flat& a, const Flat& b) noexcept {
@@ -21,17 +21,17 @@ inline double distance_between(const Flat& a, const Flat& b) noexcept {
 
 // The tip against one sphere, at rest under a lateral force: base, apex and centre lie in one vertical plane.
 struct Leaning {
-  bool holds = false;     // false: the tip rides over before it bears the force
+  bool holds = false;     // false: the tip rides over the sphere at a smaller force
   double base_m = 0.0;    // distance from the base to the centre of the sphere
   double apex_m = 0.0;    // height of the apex
-  double normal_n = 0.0;  // N
+  double normal_n = 0.0;  // N, normal force
   double energy_j = 0.0;  // energy of lever and contact
 };
 
 // Lateral thresholds of one species under a tip of one normal.
 struct LoneThresholds {
-  double rest_n = 0.0;    // f_s on the lever
-  double moving_n = 0.0;  // f_k
+  double rest_n = 0.0;    // f_s, as force on the lever
+  double moving_n = 0.0;  // f_k, as force on the lever
   PushMode mode = PushMode::Slides;
 };
 
@@ -43,7 +43,7 @@ class LoneContact {
   const TipProfile& profile() const noexcept { return profile_; }
   double pull_off_n() const noexcept { return pull_off_force(species_).si; }  // F_ad of sphere and sample
 
-  // The tip on a base at z_m that bears the lateral force.
+  // State of the tip on a base at z_m under a lateral force.
   Leaning under(double lateral_n, double z_m) const noexcept;
 
   // The lateral force at a distance of base and centre: 0 beyond touch. Negative if the tip rides over before.
@@ -66,22 +66,22 @@ class LoneContact {
   TipProfile profile_;
   LoneThresholds flank_;
   LoneThresholds cap_;
-  double cap_z_m_;  // height of cap_; NaN: none
+  double cap_z_m_;  // height for which cap_ is valid; NaN: none
 };
 
 // One sphere without neighbours on a path of the base: exact for any length.
 struct LonePath {
   bool possible = false;     // false: the tip rides over or runs round the sphere, or it slips too often
-  Flat particle;             // place at the end
+  Flat particle;             // place of the sphere at the end
   double given_j = 0.0;      // energy from the hand
   double lost_j = 0.0;       // loss by friction and slips
-  std::uint64_t yields = 0;  // slips
+  std::uint64_t yields = 0;  // number of slips
   bool moved = false;
-  bool exhausted = false;  // more slips than a tick may have
+  bool exhausted = false;  // true: more slips than a tick may have
 };
 
-// A base that goes from `from` to `to` at the height z_m. `threshold_n` is what holds the sphere at the start, between
-// f_k and f_s. With alpha from the path to the sphere, r the distance of base and sphere that bears f_k:
+// Pushes a lone sphere by a base that goes from `from` to `to` at the height z_m. `threshold_n` is the force that holds
+// the sphere at the start. With alpha from the path to it, r the distance of base and sphere at f_k:
 //
 //   tan(alpha/2) = tan(alpha_0/2) exp(travel/r)                              (M13)
 //

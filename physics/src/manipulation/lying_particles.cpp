@@ -8,7 +8,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kRingShare = 0.125;  // share of the diameter
+constexpr double kRingShare = 0.125;  // width of a ring as a share of the diameter
 constexpr int kPlacesPerRing = 6;
 
 std::vector<double> all_of(const std::vector<PlacedParticle>& particles, Length Sideways<Length>::* part) {

@@ -21,7 +21,7 @@ class LyingParticles {
   Flat position(std::size_t i) const { return {x_.at(i), y_.at(i)}; }
   HalfTurn turn(std::size_t i) const { return turns_.at(i); }
   std::size_t species(std::size_t i) const { return species_.at(i); }
-  std::size_t ground(std::size_t i) const noexcept { return ground_[i]; }  // number of its pad, from 1; 0: the sample
+  std::size_t ground(std::size_t i) const noexcept { return ground_[i]; }  // index of the pad, from 1; 0: bare sample
   bool is_pinned(std::size_t i) const { return pinned_[i]; }
   double half_m(std::size_t i) const noexcept { return half_m_[species_[i]]; }  // half length of a rod; 0: a sphere
   double core_m(std::size_t i) const noexcept { return core_m_[species_[i]]; }  // flat radius of an island; 0: none
@@ -38,12 +38,12 @@ class LyingParticles {
     grid_.near(at.x, at.y, visit);
   }
 
-  // Distance of two axes, or centres, that touch.
+  // Distance of the two axes, or centres, in contact.
   double touching_m(std::size_t i, std::size_t j) const noexcept {
     return touching_m_[species_[i] * half_m_.size() + species_[j]];
   }
   double apart_m(std::size_t i, std::size_t j) const noexcept { return distance_between(outline(i), outline(j)); }
-  bool is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept;  // farther apart than `most_m`
+  bool is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept;  // true: farther apart than `most_m`
 
   // Energy of two particles that press each other.
   double pair_j(std::size_t i, std::size_t j, const Stiffness& contact) const noexcept;
@@ -52,7 +52,7 @@ class LyingParticles {
   std::size_t ground_at(const Flat& at) const noexcept;
 
   std::vector<StickyPad> pads_;
-  std::vector<double> touching_m_;  // distance at which two species touch, by rows
+  std::vector<double> touching_m_;  // touching distance of two species, by rows
   std::vector<double> half_m_;      // half length of each species
   std::vector<double> core_m_;      // flat radius of each species
   std::vector<double> x_, y_;

@@ -12,9 +12,9 @@ namespace afm::physics {
 // Axis of a rod on the sample, seen from above, the centre of a sphere, or the flat part of an island. The body is
 // everything within a radius of it, so that a tip meets a rod or an island as it meets a sphere at the nearest point.
 struct Outline {
-  Flat at;              // middle
+  Flat at;              // middle of the body
   Flat axis{1.0, 0.0};  // unit vector towards the front end
-  double half_m = 0.0;  // half length; 0: no rod
+  double half_m = 0.0;  // half length of a rod; 0: no rod
   double core_m = 0.0;  // radius of the flat part; 0: no island
 };
 
@@ -22,7 +22,7 @@ inline Flat along(const Outline& o, double way_m) noexcept {
   return {o.at.x + way_m * o.axis.x, o.at.y + way_m * o.axis.y};
 }
 
-// Place of the nearest point of the axis, from the middle.
+// Position along the axis of its point nearest to `point`, from the middle.
 inline double place_beside(const Outline& o, const Flat& point) noexcept {
   const double way_m = (point.x - o.at.x) * o.axis.x + (point.y - o.at.y) * o.axis.y;
   return std::clamp(way_m, -o.half_m, o.half_m);
@@ -40,7 +40,7 @@ inline Flat nearest_on(const Outline& o, const Flat& point) noexcept {
   return o.half_m > 0.0 ? along(o, place_beside(o, point)) : o.at;
 }
 
-// Two axes cross.
+// Returns whether two axes cross.
 inline bool cross(const Outline& a, const Outline& b) noexcept {
   if (!(a.half_m > 0.0 && b.half_m > 0.0)) return false;
   const auto side = [](const Outline& o, const Flat& p) {

@@ -18,9 +18,9 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kLargestPush = 1e-3;  // N: beyond any lever
-constexpr double kFlattest = 1.5;      // least radius of an island over half its height
-constexpr double kHeld = 1.0 - 1e-9;   // share of F_ad that a sphere on the sample bears
+constexpr double kLargestPush = 1e-3;  // force beyond the range of any lever, N
+constexpr double kFlattest = 1.5;      // smallest ratio of an island's radius to half its height
+constexpr double kHeld = 1.0 - 1e-9;   // share of F_ad up to which a sphere stays on the sample
 
 PushBalance jammed() {
   const Force infinite{std::numeric_limits<double>::infinity()};

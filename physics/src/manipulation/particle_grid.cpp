@@ -8,7 +8,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kMostCells = 256.0;  // a side
+constexpr double kMostCells = 256.0;  // largest number of cells per side
 
 }  // namespace
 

@@ -67,7 +67,7 @@ class Assignment {
   void add(std::size_t added) {
     const std::size_t count = distance_.particles();
     std::vector<double> least(count, std::numeric_limits<double>::infinity());
-    std::vector<std::size_t> from(count, kNone);  // particle before it on the path
+    std::vector<std::size_t> from(count, kNone);  // predecessor of each particle on the path
     std::vector<bool> seen(count, false);
     std::size_t last = kNone, target = added;
     double at = 0.0;  // cost of the path to `target`
@@ -100,7 +100,7 @@ class Assignment {
 
   const PatternDistance& distance_;
   std::vector<double> of_target_, of_particle_;  // potentials
-  std::vector<std::size_t> target_on_;           // target that each particle is assigned to
+  std::vector<std::size_t> target_on_;           // target assigned to each particle
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kLargestLoad = 1e-3;  // N
+constexpr double kLargestLoad = 1e-3;  // upper bound of a load, N
 
 // The largest of k_c h cot(phi(h)) - f_s(k_c h), from the end of the flank over the cap.
 double surplus_of_push(const ParticleSpecies& species, const SphereCone& tip, double spring) {

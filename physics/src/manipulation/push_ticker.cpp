@@ -10,10 +10,10 @@
 namespace afm::physics {
 namespace {
 
-constexpr int kMostSubSteps = 8;              // a tick
-constexpr int kHeapSplit = 3;                 // steps of a heap in a sub-step
-constexpr double kSubStepShare = 1.0 / 20.0;  // share of the smallest distance of tip and sphere
-// furthest that a part moves in a sub-step, as shares of the smallest radius: alone, and in a heap
+constexpr int kMostSubSteps = 8;              // largest number of sub-steps per tick
+constexpr int kHeapSplit = 3;                 // number of steps of a heap per sub-step
+constexpr double kSubStepShare = 1.0 / 20.0;  // length of a sub-step over the smallest distance of tip and sphere
+// largest motion of a part in a sub-step as a share of the smallest radius: alone, and in a heap
 constexpr double kReachShare = 1.0 / 4.0;
 constexpr double kHeapReachShare = 1.0 / 12.0;
 
@@ -128,12 +128,12 @@ void PushedParticles::Ticker::sub_step(const Apex& to) noexcept {
   if (settled_ && to.x == base_.x && to.y == base_.y && to.height == base_.height) return;
   if (carried_.any()) {
     carry_step(to);
-    // it may have been set down
+    // the sphere may have been set down
     find_near();
     press();
     return;
   }
-  if (!find_near()) {  // the base waits
+  if (!find_near()) {  // too many particles: the base waits
     exhausted_ = true;
     return;
   }
@@ -236,7 +236,7 @@ double PushedParticles::Ticker::share_of_push(std::size_t i) const noexcept {
 bool PushedParticles::Ticker::lone_step(const Apex& to, std::size_t i) noexcept {
   if (lying_.core_m(i) > 0.0) return island_step(to, i);
   if (lying_.half_m(i) > 0.0 || !is_alone(i)) return false;
-  const bool held = holds_.pull_of(i).holds();  // pulled wherever it is not pushed
+  const bool held = holds_.pull_of(i).holds();  // true: the sphere is pulled unless it is pushed
   if (held && !(pressed_[i].normal_n > 0.0)) return false;
   LoneContact& contact = contacts_[kind_of(i)];
   const Flat was = lying_.position(i);
@@ -287,7 +287,7 @@ void PushedParticles::Ticker::place(std::size_t i, const Flat& at, const HalfTur
   moved_at_s_[i] = tick_end_s_;
   if (moves_[i]) return;
   moves_[i] = true;
-  moved_.push_back(static_cast<std::uint32_t>(i));  // within its reserve
+  moved_.push_back(static_cast<std::uint32_t>(i));  // no allocation: within the reserved capacity
 }
 
 void PushedParticles::Ticker::gave(double at_n, double goes_on_n) noexcept {

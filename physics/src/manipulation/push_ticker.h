@@ -32,12 +32,12 @@ class PushedParticles::Ticker {
   const LyingParticles& lying() const noexcept { return lying_; }
 
  private:
-  static constexpr int kMostSprings = 64;  // steps of a lever that springs back in a tick
+  static constexpr int kMostSprings = 64;  // most steps of a recoiling lever in a tick
 
   // Short list of particles.
   class Few {
    public:
-    bool add(std::size_t sphere) noexcept {  // false: full
+    bool add(std::size_t sphere) noexcept {  // false: no room
       if (count_ == spheres_.size()) return false;
       spheres_[count_++] = sphere;
       return true;
@@ -59,7 +59,7 @@ class PushedParticles::Ticker {
   };
 
   struct Budget {
-    double work = 0.0;  // contacts that heaps may still look at
+    double work = 0.0;  // contacts that heaps may still evaluate
     int heap_steps = 0;
   };
 
@@ -75,7 +75,7 @@ class PushedParticles::Ticker {
   bool passes(std::size_t i, const Apex& to) const noexcept;
   bool lone_step(const Apex& to, std::size_t i) noexcept;
   bool island_step(const Apex& to, std::size_t i) noexcept;
-  RimForce rim_force(std::size_t i) const noexcept;  // by the bend of the lever
+  RimForce rim_force(std::size_t i) const noexcept;  // force by the bend of the lever
   void heap_step(const Apex& to) noexcept;
   void tear(const Apex& to) noexcept;
   std::size_t lifted() const noexcept;
@@ -87,7 +87,7 @@ class PushedParticles::Ticker {
   bool gather_pairs_of(std::size_t place) noexcept;
   bool add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept;
   bool is_alone(std::size_t i) const noexcept;
-  std::size_t kind_of(std::size_t i) const noexcept {  // number of its contact
+  std::size_t kind_of(std::size_t i) const noexcept {  // index of its contact in contacts_
     return lying_.species(i) * (setup_.pads.size() + 1) + lying_.ground(i);
   }
   bool add_body(std::size_t i, bool near_tip) noexcept;
@@ -102,8 +102,8 @@ class PushedParticles::Ticker {
 
   PushSetup setup_;
   std::vector<LoneContact> contacts_;  // contact of each species with the sample and with each pad
-  std::vector<double> moved_at_s_;     // end of the tick in which it moved last
-  std::vector<Pressed> pressed_;       // load by the tip after the last sub-step
+  std::vector<double> moved_at_s_;     // time at the end of the tick in which each particle last moved
+  std::vector<Pressed> pressed_;       // load of each particle by the tip after the last sub-step
   TipHolds holds_;
   Reach reach_;
   LyingParticles lying_;
@@ -112,13 +112,13 @@ class PushedParticles::Ticker {
   Apex base_, apex_;
   double clear_m_ = 0.0;
   double time_s_ = 0.0, tick_end_s_ = 0.0;
-  Few near_, touched_;                // particles near the tip, and those that it presses
-  Few restless_;                      // unsettled heap
-  std::vector<std::uint32_t> moved_;  // in this tick
-  std::vector<bool> moves_;           // part of moved_
-  Budget left_;                       // in this tick
+  Few near_, touched_;                // particles near the tip, particles pressed by it
+  Few restless_;                      // particles of a heap that is not at rest
+  std::vector<std::uint32_t> moved_;  // particles moved in this tick
+  std::vector<bool> moves_;           // flag of each particle: it is in moved_
+  Budget left_;                       // budget left in this tick
   bool exhausted_ = false;
-  bool settled_ = false;  // a base that rests changes nothing
+  bool settled_ = false;  // true: a base at rest changes nothing
   PushTick tick_;
 };
 

@@ -13,7 +13,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kPressRounding = 1e-12;  // share of an energy that rounding may change
+constexpr double kPressRounding = 1e-12;  // rounding error of an energy, as a share of it
 constexpr std::size_t kNobody = HeapContacts::kMostActive;
 
 }  // namespace
@@ -85,7 +85,7 @@ bool PushedParticles::Ticker::gather(const Apex& to) noexcept {
 }
 
 void PushedParticles::Ticker::heap_step(const Apex& to) noexcept {
-  if (!gather(to)) {  // the base waits
+  if (!gather(to)) {  // too many particles: the base waits
     exhausted_ = true;
     settled_ = false;
     return;
@@ -145,7 +145,7 @@ bool PushedParticles::Ticker::island_step(const Apex& to, std::size_t i) noexcep
   const double away_m = distance_between(was, {apex_.x, apex_.y});
   std::optional<Flat> normal;
   if (pressed_[i].normal_n > 0.0) {
-    if (away_m <= lying_.core_m(i)) return false;  // on its top
+    if (away_m <= lying_.core_m(i)) return false;  // base above the island's flat part
     normal = Flat{(was.x - apex_.x) / away_m, (was.y - apex_.y) / away_m};
   }
   const IslandPath path = push_island(contact, rim, friction, was, normal, {base_.x, base_.y}, to);
@@ -310,7 +310,7 @@ bool PushedParticles::Ticker::find_obstacles() noexcept {
 
 // All particles stay where they are but the one on the tip, which follows the apex.
 void PushedParticles::Ticker::carry_step(const Apex& to) noexcept {
-  if (!find_obstacles()) {  // the base waits
+  if (!find_obstacles()) {  // too many obstacles: the base waits
     exhausted_ = true;
     settled_ = false;
     return;

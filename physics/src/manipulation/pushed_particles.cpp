@@ -16,11 +16,11 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kClearShare = 1.02;      // share of the largest diameter
-constexpr double kOverlapAllowed = 1e-6;  // share of the touching distance, at the start
-constexpr double kUnitTurn = 1e-9;        // by which the square of a turn may differ from 1
+constexpr double kClearShare = 1.02;      // clear height as a multiple of the largest diameter
+constexpr double kOverlapAllowed = 1e-6;  // allowed overlap at the start, as a share of the touching distance
+constexpr double kUnitTurn = 1e-9;        // allowed deviation of a turn's square from 1
 constexpr Length kFarthestPad{1e-3}, kSmallestPad{1e-9};
-constexpr double kMostStretch = 0.125;  // longest stretch of a contact that pulls, over the radius
+constexpr double kMostStretch = 0.125;  // longest stretch of a pulling contact, as a share of the radius
 
 void validate_hold(const PushSetup& setup, const ParticleSpecies& species) {
   const Length stretch = strongest_pull(setup.tip, species) / setup.springs.contact;

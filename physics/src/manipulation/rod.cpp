@@ -17,7 +17,7 @@ Force rod_threshold(Force sideways, Length length, Length place) noexcept {
 }
 
 Length longest_rigid_rod(Stiffness friction_per_length, Pressure modulus, Length radius) noexcept {
-  const double bending_m4 = 32.0 * std::numbers::pi * std::pow(radius.si, 4.0);  // 128 I
+  const double bending_m4 = 32.0 * std::numbers::pi * std::pow(radius.si, 4.0);  // denominator 128 I, in m^4
   return Length(std::cbrt(kRigidShare * modulus.si * bending_m4 / friction_per_length.si));
 }
 

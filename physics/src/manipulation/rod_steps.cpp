@@ -13,9 +13,9 @@ namespace {
 using Body = HeapContacts::Body;
 using Place = HeapContacts::Place;
 
-constexpr double kRodRounding = 1e-12;       // share by which a load must exceed a threshold
-constexpr double kLeastTurning = 1e-3;       // share of the friction's curvature
-constexpr double kLeastRodStiffness = 1e-6;  // share of a contact's
+constexpr double kRodRounding = 1e-12;       // fraction by which a load must exceed a threshold
+constexpr double kLeastTurning = 1e-3;       // least turning stiffness, as a share of the friction's curvature
+constexpr double kLeastRodStiffness = 1e-6;  // least stiffness of a rod, as a share of a contact's
 
 // Unknowns of a contact: up to three of each side, with the derivatives of its overlap.
 struct Derivatives {
@@ -68,7 +68,7 @@ Load load_on(const HeapContacts& heap, std::size_t i) noexcept {
   return load;
 }
 
-// From the frame of the rod's start to that of the sample.
+// Rotates a vector from the frame of the rod's start to that of the sample.
 Flat in_sample(const Body& rod, double along, double across) noexcept {
   return {along * rod.start_axis.x - across * rod.start_axis.y, along * rod.start_axis.y + across * rod.start_axis.x};
 }
@@ -142,7 +142,7 @@ std::optional<Place> rod_step(const HeapContacts& heap, std::size_t i) noexcept 
   const Load load = load_on(heap, i);
   if (!rod.moved()) return first_motion(rod, load);
   const Place start = rod.place_at(rod.start, 0.0);
-  if (!(load.trace > 0.0)) return start;  // friction alone
+  if (!(load.trace > 0.0)) return start;  // friction only: back to the start
   HeapSystem system(3);
   add_rod_friction(system, rod, 0);
   for (std::size_t a = 0; a < 3; ++a) {

@@ -12,15 +12,15 @@ namespace afm::physics {
 // The contact of the tip with a rod, without the curvature of the overlap.
 void add_rod_tip(HeapSystem& s, const HeapContacts& heap, std::size_t body, std::size_t row) noexcept;
 
-// A contact of two bodies of which one is a rod, also without that curvature.
+// The contact of two bodies, at least one of them a rod, without the curvature of the overlap.
 void add_rod_pair(HeapSystem& s, const HeapContacts& heap, std::size_t pair, std::size_t row_first,
                   std::size_t row_second) noexcept;
 
-// Friction of a rod that moves.
+// Friction of a moving rod.
 void add_rod_friction(HeapSystem& s, const HeapContacts::Body& rod, std::size_t row) noexcept;
 
 // End of a step of only this rod: its first motion if it yields, afterwards a Newton step, or back to its start if
-// nothing touches it. Nothing if it rests.
+// nothing touches it. Empty if it rests.
 std::optional<HeapContacts::Place> rod_step(const HeapContacts& heap, std::size_t body) noexcept;
 
 // True if a place lies on the other side of the start of a body, where friction has a kink.

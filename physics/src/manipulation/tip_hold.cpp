@@ -11,7 +11,7 @@ namespace afm::physics {
 namespace {
 
 constexpr double kScatter = 0.2;
-constexpr double kStrongFactor = 2.0;  // 3.6 standard deviations
+constexpr double kStrongFactor = 2.0;  // factor of a strong contact, 3.6 standard deviations above the median
 
 // splitmix64 (Steele, Lea & Flood 2014).
 std::uint64_t spread(std::uint64_t word) {

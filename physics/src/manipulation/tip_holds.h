@@ -11,9 +11,9 @@
 
 namespace afm::physics {
 
-// The pull that a contact of the tip bears, on its flank and on its cap.
+// Pull-off force of a contact with the tip, on its flank and on its cap.
 struct TipPull {
-  double flank_n = 0.0, cap_n = 0.0;  // 0: it only pushes
+  double flank_n = 0.0, cap_n = 0.0;  // pull-off forces; 0: the tip only pushes
 
   bool holds() const noexcept { return flank_n > 0.0; }
   double on(bool cap) const noexcept { return cap ? cap_n : flank_n; }
@@ -51,7 +51,7 @@ class TipHolds {
     return true;
   }
 
-  // A pull moves a particle. True if it has not since the tip touched it last.
+  // Records that a pull moves a particle. True for the first time since the tip last touched it.
   bool begins_to_follow(std::size_t particle) noexcept {
     const bool begins = !follows_[particle];
     follows_[particle] = true;
@@ -66,7 +66,7 @@ class TipHolds {
   }
 
  private:
-  static constexpr double kLargestFactor = 6.0;  // bound above the largest pull_off_factor()
+  static constexpr double kLargestFactor = 6.0;  // upper bound of pull_off_factor()
 
   struct Kind {
     TipPull pull;
@@ -74,11 +74,11 @@ class TipHolds {
     bool lifts = false;
   };
 
-  std::vector<Kind> kinds_;  // kind of each species
+  std::vector<Kind> kinds_;  // adhesion of each species
   std::vector<std::size_t> kind_of_;
   std::vector<TipPull> held_;
-  std::vector<bool> follows_;          // spheres moved by a pull since the last touch
-  std::vector<std::uint32_t> formed_;  // contacts of each particle since reset()
+  std::vector<bool> follows_;          // flag of each particle: moved by a pull since the last touch
+  std::vector<std::uint32_t> formed_;  // number of contacts of each particle since reset()
   double stretch_m_ = 0.0;
 };
 

@@ -11,9 +11,9 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kLeastAmplitude = 1e-15;  // m; below it the phase has no meaning
-constexpr double kShiftError = 1e-17;      // m
-constexpr double kShiftShare = 1e-7;       // error of a shift, as a share of it
+constexpr double kLeastAmplitude = 1e-15;  // smallest amplitude with a meaningful phase, m
+constexpr double kShiftError = 1e-17;      // absolute error of a shift, m
+constexpr double kShiftShare = 1e-7;       // error of a shift, as a fraction of it
 constexpr double kCoarse = 300.0;          // errors of averages that no derivative is taken of, in those of the others
 constexpr double kLeastSlope = -0.2;       // slope of <F G>/k - x; no step is longer than five times what is missing
 
@@ -136,7 +136,7 @@ RestingTap AveragedFlow::describe(const TapState& state, Length z) noexcept {
 AveragedFlow::Linear AveragedFlow::linear(const TapState& state, double z) noexcept {
   const double amplitude = std::max(state.amplitude.si, kLeastAmplitude), length = 1e-6 * amplitude;
   const Rate longer = rate({Length(amplitude + length), state.phase}, z);
-  const Rate here = rate(state, z);  // the newest averages
+  const Rate here = rate(state, z);  // computes the newest averages
   return {.rate = here,
           .amplitude_by_amplitude = (longer.amplitude - here.amplitude) / length,
           .amplitude_by_phase = a_ / (2.0 * r_) * std::cos(state.phase),
@@ -146,7 +146,7 @@ AveragedFlow::Linear AveragedFlow::linear(const TapState& state, double z) noexc
 
 bool AveragedFlow::follow(TapState& state, Length z) noexcept {
   constexpr int kMostSteps = 12;
-  constexpr double kFarthest = 0.05;  // in phase, and in amplitude as a share of it: beyond lies another branch
+  constexpr double kFarthest = 0.05;  // step in phase, or in relative amplitude, that leads to another branch
   TapState next = state;
   for (int i = 0; i < kMostSteps; ++i) {
     const Linear at = linear(next, z.si);
@@ -215,7 +215,7 @@ AveragedFlow::Sample AveragedFlow::sample_at(double lowest, double z) noexcept {
   return {lowest, amplitude <= kLeastAmplitude ? -1.0 : imbalance(amplitude, z)};
 }
 
-// To 1e-13 m: enough for a sign. The averages are those of the search itself where it has converged.
+// Sample to 1e-13 m: enough for a sign. The averages are those of the search itself where it has converged.
 AveragedFlow::Sample AveragedFlow::rough_sample_at(double lowest, double z) noexcept {
   constexpr int kMostSteps = 24;
   constexpr double kError = 1e-13;
@@ -235,9 +235,9 @@ AveragedFlow::Sample AveragedFlow::rough_sample_at(double lowest, double z) noex
 }
 
 std::vector<AveragedFlow::Sample> AveragedFlow::samples_at(double z, Roots roots) {
-  constexpr double kFinest = 4e-12, kGrowth = 1.12;  // m; dense where contact begins
+  constexpr double kFinest = 4e-12, kGrowth = 1.12;  // finest step in m, growth of a step; dense where contact begins
   constexpr double kHopeless = 30.0;                 // imbalance of a push far beyond what the drive sustains
-  constexpr int kSeen = 6;                           // such samples in a row, as a swing may have lost its shape
+  constexpr int kSeen = 6;                           // number of successive ones, as a swing may have lost its shape
   const double contact = surface_->contact_height().si;
   std::vector<double> heights;
   for (double d = kFinest; contact + d < z; d *= kGrowth) heights.push_back(contact + d);
@@ -300,7 +300,7 @@ AveragedFlow::Sample AveragedFlow::turn_between(const Sample& left, const Sample
 // The tip on the sample, whose adhesion holds a lever that pulls: there it is a driven oscillator with the contact as a
 // second spring.
 std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
-  constexpr double kProbe = 1e-14;  // m, amplitude of a swing that feels one force
+  constexpr double kProbe = 1e-14;  // amplitude of a swing that feels a constant force, m
   constexpr int kHeights = 64, kHalvings = 60;
   const auto force = [&](double height) {
     return surface_->averages({Length(kProbe), Length(height), lever_.angular_drive(), harmonics_ratio_}).mean.si;
@@ -335,9 +335,9 @@ std::optional<RestingTap> AveragedFlow::stuck_at(double z) noexcept {
 }
 
 std::vector<RestingTap> AveragedFlow::resting_at(Length z, Roots roots) {
-  constexpr double kAtRest = 0.02;                         // imbalance of a root
-  constexpr double kSame = 1e-9;                           // share of the amplitude by which two roots differ
-  constexpr double kSameListed = 2e-3, kSamePhase = 0.01;  // share and rad by which two listed stable roots differ
+  constexpr double kAtRest = 0.02;                         // imbalance allowed for a root
+  constexpr double kSame = 1e-9;                           // relative difference of two roots of the same amplitude
+  constexpr double kSameListed = 2e-3, kSamePhase = 0.01;  // relative difference and rad of two listed stable roots
   const std::vector<Sample> samples = samples_at(z.si, roots);
   const auto differ = [](const Sample& a, const Sample& b) { return (a.imbalance < 0.0) != (b.imbalance < 0.0); };
   std::vector<RestingTap> taps;

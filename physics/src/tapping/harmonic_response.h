@@ -28,7 +28,7 @@ class HarmonicResponse {
  public:
   explicit HarmonicResponse(double spring_constant, double ratio = 1.0) noexcept : k_(spring_constant) {
     constexpr double kPi = std::numbers::pi;
-    constexpr double kNearest = 1e-5;  // share of the resonance within which both forms differ by less than rounding
+    constexpr double kNearest = 1e-5;  // distance from resonance within which both forms differ by less than rounding
     resonant_ = std::abs(ratio - 1.0) < kNearest;
     if (resonant_) return;
     a_ = 1.0 / ratio;
@@ -61,12 +61,12 @@ class HarmonicResponse {
     if (resonant_) return resonant_bend(p, c, t, of_t) + since / k_;
     return (far_bend(p, c, of_t, of_at) + a_ * since) / k_;
   }
-  // The part of it that is of P and C.
+  // The part of bend() that depends on P and C.
   double bend_of_sums(double p, double c, double t, const Turned& of_t, const Turned& of_at) const noexcept {
     return resonant_ ? resonant_bend(p, c, t, of_t) : far_bend(p, c, of_t, of_at) / k_;
   }
 
-  // dy/dt, with the same integrals and `here` of F at t itself.
+  // dy/dt, with the integrals of bend() and `here` of F at t itself.
   double rate(double p, double c, double t, const Turned& of_t, const Turned& of_at, const Turned& before,
               double here) const noexcept {
     const double since = of_at.cosine * before.cosine + of_at.sine * before.sine + here;

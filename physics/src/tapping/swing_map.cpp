@@ -10,7 +10,7 @@
 namespace afm::physics {
 namespace {
 
-constexpr int kFinerSteps = 4 * TappingOscillator::kUsualSteps;  // steps a swing
+constexpr int kFinerSteps = 4 * TappingOscillator::kUsualSteps;  // steps per swing
 constexpr double kLongestNewtonStep = 0.1;                       // step of Newton's method, as a share of A0
 
 std::complex<double> map_point_of(const TapState& state) { return std::polar(state.amplitude.si, state.phase); }
@@ -45,7 +45,7 @@ std::optional<SwingMap::Fixed> SwingMap::fixed_near(Point at, Length z) {
     const Point by_v = (after(at + Point(0.0, nudge), z) - there) / nudge;
     const double trace = by_x.real() + by_v.imag();
     const double determinant = by_x.real() * by_v.imag() - by_x.imag() * by_v.real();
-    const double of_change = determinant - trace + 1.0;  // determinant of the map less the point itself
+    const double of_change = determinant - trace + 1.0;  // determinant of the map minus the identity
     Point step(((by_v.imag() - 1.0) * missing.real() - by_v.real() * missing.imag()) / of_change,
                ((by_x.real() - 1.0) * missing.imag() - by_x.imag() * missing.real()) / of_change);
     const double length = std::abs(step);
@@ -58,7 +58,7 @@ std::optional<SwingMap::Fixed> SwingMap::fixed_near(Point at, Length z) {
 }
 
 std::optional<DirectSwing> SwingMap::settled_near(Point at, Length z) {
-  constexpr double kSettled = 1e-6, kNear = 0.02;  // shares of the free amplitude
+  constexpr double kSettled = 1e-6, kNear = 0.02;  // limits as shares of the free amplitude
   // steps that are long for a stiff contact hold a swing at phases of their own: it goes on in shorter ones
   tip_.place(z, swing_state_of(at));
   const TapState before = tip_.swing().state;
@@ -68,10 +68,10 @@ std::optional<DirectSwing> SwingMap::settled_near(Point at, Length z) {
   return swing;
 }
 
-// For where the steps of direct integration make the map uneven, as under a soft lever deep in the sample, so that
-// Newton's method does not end: the point at which the swing itself rests.
+// Point at which the swing itself rests, for maps made uneven by the steps of direct integration, as under a soft lever
+// deep in the sample, where Newton's method does not end.
 std::optional<SwingMap::Point> SwingMap::rest_of(Point at, Length z, std::span<const Point> known) {
-  constexpr double kNear = 0.03, kRests = 1e-4;  // shares of the free amplitude
+  constexpr double kNear = 0.03, kRests = 1e-4;  // limits as shares of the free amplitude
   const auto is_near = [&](Point other) { return std::abs(other - at) < kNear * a0_m_; };
   if (std::any_of(known.begin(), known.end(), is_near)) return std::nullopt;
   const Point rest = after(at, z, static_cast<int>(std::ceil(3.0 * tip_.lever().quality_factor)));
@@ -82,7 +82,7 @@ std::optional<SwingMap::Point> SwingMap::rest_of(Point at, Length z, std::span<c
 std::vector<SwingMap::Point> SwingMap::stable_points(Length z) {
   constexpr int kAmplitudes = 8, kPhases = 8, kRounds = 8;
   constexpr double kLeastShare = 0.86, kMostShare = 1.4, kShareStep = 0.0125;  // shares of the height
-  constexpr double kNear = 0.03, kSame = 1e-3, kStays = 0.1;                   // shares of the free amplitude
+  constexpr double kNear = 0.03, kSame = 1e-3, kStays = 0.1;                   // limits as shares of the free amplitude
   const int swings = static_cast<int>(std::ceil(0.2 * tip_.lever().quality_factor));
   std::vector<Point> found;
   const auto look = [&](Point at) {

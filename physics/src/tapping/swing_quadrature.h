@@ -49,8 +49,8 @@ struct SwingGeometry {
   double amplitude, bottom;
   double zero_of_indentation;
   HarmonicResponse response;
-  SwingShape* shape = nullptr;  // the bend, which learns the forces; null: none
-  double ways = 1.0;            // share of both ways in which the force acts: 1, or one half
+  SwingShape* shape = nullptr;  // bend of the swing, updated with the forces; null: none
+  double ways = 1.0;            // fraction of both ways in which the force acts: 1, or one half
 
   double bend(double angle) const { return shape == nullptr ? 0.0 : shape->bend(angle); }
   double height(double angle) const {
@@ -90,7 +90,7 @@ struct SwingGeometry {
     if (h < zero_of_indentation) sums.viscous += weight * std::sqrt(zero_of_indentation - h) * sine_squared;
   }
 
-  // In contact, between two angles. At the upper end the force may vary like the root of the distance, which the
+  // Sums in contact, between two angles. At the upper end the force may vary like the root of the distance, which the
   // quadratic change of variable makes smooth.
   template <class ForceAt>
   SwingSums in_contact(double from, double to, const ForceAt& force_at) const {
@@ -104,8 +104,8 @@ struct SwingGeometry {
     return sums;
   }
 
-  // Above contact, between two angles: pieces on which the distance from `pole`, below all heights, grows by a factor
-  // of four, so that each converges in the same way however near the tip comes.
+  // Sums above contact, between two angles: pieces on which the distance from `pole`, below all heights, grows by a
+  // factor of four, so that each converges in the same way however near the tip comes.
   template <class ForceAt>
   SwingSums above_contact(double from, double to, double pole, const ForceAt& force_at) const {
     SwingSums sums;

@@ -31,7 +31,7 @@ class SwingShape {
 
   const HarmonicResponse& response() const noexcept { return response_; }
 
-  // Of the newest quadrature, between its nodes; 0 without one.
+  // Bend of the newest quadrature, between its nodes; 0 without one.
   double bend(double angle) const noexcept;
 
   void straighten() noexcept;
@@ -41,12 +41,12 @@ class SwingShape {
     rate_squares_ = 0.0;
   }
 
-  // At the next node: its angle, and the cosine and sine of that and of what the response turns it by.
+  // Bend at the next node: its angle, and the cosine and sine of it and of the angle turned by the response.
   double bend_now(double angle, const Turned& of_angle, const Turned& turned) const noexcept {
     return response_.bend(p_, c_, angle, of_angle, turned, before_);
   }
 
-  // A node with its weight, the force there, in N, and the bend that it was computed with.
+  // Adds a node with its weight, its force, in N, and the bend with which it was computed.
   void add(double angle, const Turned& of_angle, const Turned& turned, double weight, double force,
            double bend) noexcept {
     if (count_ == kMostNodes) return;
@@ -65,7 +65,7 @@ class SwingShape {
   double finish() noexcept;
 
  private:
-  // A force that bends nothing, in N.
+  // A force that causes no bend, in N.
   struct Straight {
     double mean = 0, cosine = 0;
 
@@ -76,7 +76,7 @@ class SwingShape {
     Turned of_angle{0.0, 0.0}, turned{0.0, 0.0};
     double force = 0, bend = 0;
   };
-  // More than any quadrature has, which has 12 for each factor of four between the closest height and the largest.
+  // Upper bound of a quadrature's nodes: 12 for each factor of four between the closest height and the largest.
   static constexpr std::size_t kMostNodes = 512;
   using Nodes = std::array<Node, kMostNodes>;
 
@@ -84,12 +84,12 @@ class SwingShape {
 
   HarmonicResponse response_;
   bool exact_;
-  Straight straight_;          // part of F in the complete quadrature that bends nothing; 0 unless exact
+  Straight straight_;          // part of F in the complete quadrature that causes no bend; 0 unless exact
   double p_ = 0.0, c_ = 0.0;   // P and C of the rest of F
   Turned before_{0.0, 0.0};    // integrals of the rest times cosine and sine of the turned angle, up to the newest node
-  double rate_squares_ = 0.0;  // integral of (dy/dt)^2 up to it
+  double rate_squares_ = 0.0;  // integral of (dy/dt)^2 up to the newest node
   std::array<Nodes, 2> nodes_;
-  std::size_t filling_ = 0;  // the newer quadrature; the other one is complete
+  std::size_t filling_ = 0;  // index of the newer quadrature; the other one is complete
   std::size_t old_count_ = 0, count_ = 0;
   mutable std::size_t cursor_ = 0;
 };

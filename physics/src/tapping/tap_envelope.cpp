@@ -18,15 +18,15 @@ namespace {
 
 constexpr std::size_t kAmplitudes = 48;
 constexpr double kLastRow = static_cast<double>(kAmplitudes) - 1.000001;
-constexpr double kFinestGap = 0.1e-9;    // m; from contact this far the columns are evenly spaced
-constexpr int kColumnsOfOctave = 36;     // columns for each doubling of the gap beyond, evenly spaced
+constexpr double kFinestGap = 0.1e-9;    // gap from contact up to which columns are evenly spaced, m
+constexpr int kColumnsOfOctave = 36;     // number of columns for each doubling of the gap beyond, evenly spaced
 constexpr double kFirstShare = 0.01;     // first row, as a share of the free amplitude
 constexpr double kLastShare = 1.25;      // last row, as a share of the free amplitude
-constexpr double kFarthestGap = 300e-9;  // gap of the last column
+constexpr double kFarthestGap = 300e-9;  // gap of the last column, m
 constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
-constexpr double kLargestTurn = 0.25;    // rad a step
-constexpr double kLargestRing = 0.4;     // rad a step; more, and a step gives a stiff contact more than a swing loses
-constexpr double kNudge = 0.05;          // share of a row, for the slope of w
+constexpr double kLargestTurn = 0.25;    // largest turn per step, rad
+constexpr double kLargestRing = 0.4;     // largest ringing per step, rad; more would feed a swing on a stiff contact
+constexpr double kNudge = 0.05;          // distance for the slope of w, as a share of a row
 
 // The column of a gap, and the gap of a column. Between powers of two it is a straight line, read from the bits of a
 // number: a logarithm would be the dearest part of a tick.
@@ -42,8 +42,8 @@ double gap_of(double column) noexcept {
   return std::copysign(kFinestGap * (std::ldexp(1.0 + octaves - whole, static_cast<int>(whole)) - 1.0), column);
 }
 
-// At most `most`, short beside the relaxation, the turn and the ringing, whose square times the amplitude is `ring`. Of
-// most steps it is clear without a root that all that is left is short enough.
+// Length of a step: at most `most`, short beside the relaxation, the turn and the ringing, whose square times the
+// amplitude is `ring`. For most steps that is clear without a root.
 double step_of(double most, double slowest, double w, double ring, double amplitude) noexcept {
   constexpr double kClear = 0.98;
   const bool clear = slowest * most < kClear && std::abs(w) * most < kClear * kLargestTurn &&

@@ -10,11 +10,11 @@ namespace afm::physics {
 namespace {
 
 constexpr std::size_t kNodesOfHeight = 240;
-constexpr double kFinestDistance = 0.1e-9;  // m; from contact this far the nodes are evenly spaced, then by factors
-constexpr double kLeastSwingShare = 0.01;   // smallest amplitude of the table, as a share of the free one
-constexpr double kStepsOfReach = 250.0;     // steps of an edge on a length of the free amplitude
+constexpr double kFinestDistance = 0.1e-9;  // m; nodes closer to contact are evenly spaced, farther ones by factors
+constexpr double kLeastSwingShare = 0.01;   // smallest amplitude of the table, as a share of the free amplitude
+constexpr double kStepsOfReach = 250.0;     // number of steps of an edge per free amplitude
 constexpr int kMostStepsOfEdge = 6000, kStepsOfPoint = 2;
-constexpr double kFirstStepShare = 1e-3;  // from an unstable state, as a share of the free amplitude
+constexpr double kFirstStepShare = 1e-3;  // first step from an unstable state, as a share of the free amplitude
 
 struct SwingVector {
   double u, v;

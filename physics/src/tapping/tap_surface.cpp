@@ -41,8 +41,8 @@ SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law, SwingSha
 
   const bool touches = bottom <= law.contact;
   const bool stuck = touches && swing.centre.si + amplitude <= law.release;
-  double in = touches ? geometry.angle(law.contact) : 0.0;         // the way down, attached below
-  const double off = touches ? geometry.angle(law.release) : 0.0;  // angle on the way up, attached below
+  double in = touches ? geometry.angle(law.contact) : 0.0;         // contact on the way down
+  const double off = touches ? geometry.angle(law.release) : 0.0;  // release on the way up
   if (stuck) in = off;
   const SwingSums pressed = geometry.in_contact(0.0, in, law.attached);
   const SwingSums drawn = one_way.in_contact(in, off, law.attached);

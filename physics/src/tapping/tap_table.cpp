@@ -11,11 +11,11 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kAtRest = 1e-6;           // change of the amplitude in 50 swings, as a share of the free one
+constexpr double kAtRest = 1e-6;           // relative change of the amplitude in 50 swings of a resting state
 constexpr double kJumpError = 1e-3;        // error of a jump's height, as a share of the free amplitude
-constexpr double kFaintChange = 0.01;      // share of the free amplitude by which the highest swing may differ from it
+constexpr double kFaintChange = 0.01;      // relative difference of the highest swing from the free one
 constexpr double kMostReach = 10.0;        // highest base, in free amplitudes, for an attraction with a long range
-constexpr double kClearlyRepelled = 0.02;  // sine of the phase below that of the free lever
+constexpr double kClearlyRepelled = 0.02;  // sine of the phase, relative to the free lever, of a repelled swing
 
 // Heights of the base in free amplitudes above contact, the highest first: dense where the tip begins to touch.
 struct Zone {
@@ -33,8 +33,8 @@ std::vector<Length> heights_from(Length highest, Length contact, Length free_amp
   return heights;
 }
 
-// Without a loop a tip changes branch, and nothing else, where its phase has clearly passed that of the free lever; at
-// the lowest height if it never does.
+// Height of the change of branch without a loop: where the phase has clearly passed that of the free lever; the lowest
+// height if it never does.
 Length repelled_from(const std::vector<TapPoint>& down, const DrivenLever& lever) {
   const auto repelled = std::find_if(down.begin(), down.end(), [&](const TapPoint& point) {
     return std::sin(point.state.phase - lever.free_phase) < -kClearlyRepelled;

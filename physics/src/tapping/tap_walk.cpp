@@ -10,10 +10,10 @@
 namespace afm::physics {
 namespace {
 
-// True if a swing goes on as it was within this distance, so that there is no fold. The steps of the flow may have
+// True if a swing continues unchanged within this distance, so that there is no fold. The steps of the flow may have
 // turned the phase of one that does not feel them.
 bool same_swing_beside(const TapState& before, const TapState& after, Length distance) {
-  constexpr double kSamePhase = 0.02;  // rad
+  constexpr double kSamePhase = 0.02;  // tolerance of the phase, rad
   const double turned = std::remainder(after.phase - before.phase, 2.0 * std::numbers::pi);
   return abs(after.amplitude - before.amplitude) <= 2.0 * distance && std::abs(turned) < kSamePhase;
 }
@@ -42,17 +42,17 @@ bool turns_over(const TapState& before, const TapState& after) {
 // A walk in one direction.
 struct Walked {
   bool only_at_rest = false;
-  bool follows = false;  // the swing is known to rest on a branch
-  int false_folds = 0;   // places that Newton's method did not pass, though the swing goes on beyond them
+  bool follows = false;  // true: the swing is known to rest on a branch
+  int false_folds = 0;   // number of places where Newton's method failed, though the swing continues beyond them
 };
 
-// From rest at one height to rest at another, along the branch as far as it goes.
+// Moves from rest at one height to rest at another, along the branch as far as it goes.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
                   Walked& walked) {
-  constexpr int kMostFalseFolds = 4;     // more show that averages are no way to follow this swing
-  constexpr int kMostTries = 400;        // a fold takes some 100; more where Newton's method only creeps
-  constexpr double kFoldError = 1e-18;   // m
-  constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
+  constexpr int kMostFalseFolds = 4;     // limit beyond which averages cannot follow this swing
+  constexpr int kMostTries = 400;        // attempts; a fold takes some 100, more where Newton's method only creeps
+  constexpr double kFoldError = 1e-18;   // error of a fold's height, m
+  constexpr double kBeyondFold = 2e-12;  // m beyond a fold, from which the flow leaves its neighbourhood in finite time
   const double way = to.si - from.si;
   TapState here = state;
   const bool known = std::exchange(walked.follows, false);
@@ -62,7 +62,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
     if (walked.only_at_rest && !flow.follow(rest, z)) curve.lost_at = z;
     return settled;
   };
-  if (!known && !flow.follow(here, from)) {  // not at rest: a swing that hovers where contact begins
+  if (!known && !flow.follow(here, from)) {  // not at rest: a swing that hovers at the beginning of contact
     state = settle(to);
     return;
   }

@@ -16,13 +16,13 @@ namespace afm::physics {
 struct TapDirection {
   Branch branch = Branch::Approach;
   std::vector<Length> heights;
-  std::function<void()> reached = {};  // called at each height, if there is one
+  std::function<void()> reached = {};  // callback at each height; may be empty
 };
 
 // A slow walk down and up again, in parts.
 struct SlowWalk {
-  std::vector<TapPoint> down, up;  // each from the highest Z
-  std::optional<TapJump> in, off;  // between the attractive and the repulsive state
+  std::vector<TapPoint> down, up;  // points of each way, from its highest Z
+  std::optional<TapJump> in, off;  // jumps between the attractive and the repulsive state
 
   bool hysteretic() const { return in && off && off->z > in->z; }
 };
@@ -37,13 +37,13 @@ bool jumped(const TapState& before, const TapState& after, const DrivenLever& le
 
 void add_tap_point(TappingCurve& curve, const DrivenLever& lever, Branch branch, Length z, const RestingTap& tap);
 
-// From rest to rest along the branches, which it leaves exactly at their folds; ends early where the amplitude is less
-// than `least`, and is lost, if `only_at_rest`, where TapPath says so.
+// Walks from rest to rest along the branches, which it leaves exactly at their folds; ends early where the amplitude is
+// less than `least`, and is lost, if `only_at_rest`, where TapPath says so.
 void walk_slowly(AveragedFlow& flow, const TapDirection& direction, TapState& state, TappingCurve& curve,
                  Length least = Length(), bool only_at_rest = false);
 void walk_slowly(TappingOscillator& tip, const TapDirection& direction, TappingCurve& curve);
 
-// At a constant speed.
+// Walks at a constant speed.
 void walk_moving(AveragedFlow& flow, const TapDirection& direction, Velocity speed, TapState& state,
                  TappingCurve& curve);
 void walk_moving(TappingOscillator& tip, const TapDirection& direction, Velocity speed, TappingCurve& curve);

@@ -17,19 +17,19 @@
 namespace afm::physics {
 namespace {
 
-constexpr int kHeights = 400;               // heights in a walk
-constexpr std::size_t kNodes = 1200;        // nodes in a branch
+constexpr int kHeights = 400;               // number of heights in a walk
+constexpr std::size_t kNodes = 1200;        // number of nodes in a branch
 constexpr Length kClearOfSample{2e-9};      // distance from the free swing without a push
-constexpr double kSteepestFall = 4.0;       // change of the amplitude with Z, as a hand feels it
-constexpr double kFaintReduction = 0.02;    // share of the free amplitude
-constexpr double kStopped = 0.1;            // share of the free amplitude; with less, a tip may stick
-constexpr double kMostReachOfSwing = 10.0;  // in free amplitudes, for an attraction with a long range
+constexpr double kSteepestFall = 4.0;       // steepest slope of the push, in full pushes per free amplitude
+constexpr double kFaintReduction = 0.02;    // faintest reduction of the amplitude, as a share of the free amplitude
+constexpr double kStopped = 0.1;            // smallest amplitude as a share of the free one; with less, a tip may stick
+constexpr double kMostReachOfSwing = 10.0;  // farthest height in free amplitudes, for an attraction with a long range
 
 Length height_of(int index, Length from, Length to) {
   return from + (to - from) * (static_cast<double>(index) / kHeights);
 }
 
-// By the averaged flow, from rest to rest.
+// Curve by the averaged flow, from rest to rest.
 TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
   TapDirection down{Branch::Approach, {}}, up{Branch::Retract, {}};
   for (int i = 0; i <= kHeights; ++i) down.heights.push_back(height_of(i, from, to));
@@ -42,7 +42,7 @@ TappingCurve curve_of(AveragedFlow& flow, Length from, Length to) {
   return curve;
 }
 
-// From above the attraction, also where its range is long, down to contact, or to where the sample stops the swing: a
+// Curve from above the attraction, also of a long range, down to contact, or to where the sample stops the swing: a
 // smaller one may jump to states that the envelope of a hand does not reach.
 TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever) {
   AveragedFlow flow(surface, lever, AveragedFlow::Search::AsFelt);
@@ -125,7 +125,7 @@ double given_by_loop(const BranchTable& free, const BranchTable& attached) {
   return sum_n * step;
 }
 
-// Both branches of P by direct integration, safe for a hand that feels them once a tick. A swing that changes in a
+// Puts both branches of P by direct integration, safe for a hand that feels them once a tick. A swing that changes in a
 // step, as where the tip sticks, has its push spread over some Z. A repelled branch that pushes more than the
 // attracted one would give a hand energy with each loop; its push is then no larger than that of the attracted one.
 void put_felt_branches(const TapTable& rests, Length floor, Length highest, LawTables& tables) {

@@ -52,7 +52,7 @@ bool same_state(const TapState& a, const TapState& b) {
   return abs(a.amplitude - b.amplitude) < kSameAmplitude * b.amplitude && std::abs(a.phase - b.phase) < kSamePhase;
 }
 
-// Of so many heights one in this many is looked at for islands.
+// Stride at which heights are searched for islands.
 std::size_t stride_of_islands(std::size_t heights) {
   constexpr std::size_t kMostHeights = 100;
   return (heights + kMostHeights - 1) / kMostHeights;

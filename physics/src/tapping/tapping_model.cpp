@@ -16,8 +16,8 @@ namespace {
 // Sine of the phase's excess beyond which the lever is in the other state: no chatter of a free swing.
 constexpr double kClearState = 0.02;
 
-constexpr double kLeastSwing = 0.05;  // share of the free amplitude; a swing that is nearly stopped keeps its state
-constexpr int kLooks = 24;            // at the state, in a step
+constexpr double kLeastSwing = 0.05;  // smallest swing that can change its state, as a share of the free amplitude
+constexpr int kLooks = 24;            // number of checks of the state per step
 
 TapEnvelope envelope_of(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                         const LawTables& tables) {

@@ -63,7 +63,7 @@ struct TappingOscillator::Sums {
 
 TappingOscillator::Pace TappingOscillator::pace(double steps_a_swing) const {
   const double w0 = lever_.angular_resonance();
-  const double angle = 2.0 * std::numbers::pi / (lever_.ratio * steps_a_swing);  // w0 dt
+  const double angle = 2.0 * std::numbers::pi / (lever_.ratio * steps_a_swing);  // angle w0 dt of a step
   const double damping = std::exp(-angle / lever_.quality_factor);
   const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
   return {.kick = std::tan(0.5 * angle) / (mass_ * w0),

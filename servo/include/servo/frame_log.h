@@ -18,13 +18,13 @@ namespace afm::servo {
 // Record of a frame for --frame-log.
 struct FrameRecord {
   std::int64_t begun_ns = 0, presented_ns = 0;
-  std::optional<double> head_latency_s{};  // from a tracker's packet to the presentation of the picture it changed
-  std::optional<double> nearest_rad{}, farthest_rad{};  // crossed disparity, as last measured
+  std::optional<double> head_latency_s{};  // from a tracker's packet to the display of the picture that it changed
+  std::optional<double> nearest_rad{}, farthest_rad{};  // limits of the crossed disparity, as last measured
   double ipd_m = 0;                                     // drawn eye distance
-  std::optional<std::uint32_t> servo_late_us{};  // latest tick that the servo has reported since the previous frame
-  std::uint64_t servo_missed = 0;                // number of ticks since the servo's start
-  std::optional<double> pose_age_s{};  // headset: from locating the eyes to the runtime's receipt of the picture
-  const char* headset = "";            // shown, hidden, frozen, off; empty without a headset
+  std::optional<std::uint32_t> servo_late_us{};         // largest lateness of a tick since the previous frame
+  std::uint64_t servo_missed = 0;                       // number of ticks missed since the servo's start
+  std::optional<double> pose_age_s{};  // headset: time from locating the eyes to the runtime's receipt of the picture
+  const char* headset = "";            // state of the headset: shown, hidden, frozen, off; empty without a headset
 };
 
 // Latest of the ticks that the servo has counted between two frames; empty if it has reported none.
@@ -63,10 +63,10 @@ class FrameLog {
   std::uint64_t frames_ = 0;
   std::mutex changing_;
   std::condition_variable more_;
-  std::string waiting_;  // lines
+  std::string waiting_;  // lines not yet written
   bool ending_ = false;
-  int error_ = 0;       // set by the writing thread, read after its end
-  std::thread writer_;  // last member: it uses all the others
+  int error_ = 0;       // errno of the writing thread, read after its end
+  std::thread writer_;  // last member, because the thread uses all the others
 };
 
 }  // namespace afm::servo

@@ -12,10 +12,10 @@
 namespace afm::servo {
 
 struct HapticChoice {
-  const haptics::DeviceKind* device = nullptr;  // null: the best available
-  std::string replay_file;                      // not empty: session whose hand is replayed, without a device
+  const haptics::DeviceKind* device = nullptr;  // kind of device; null: the best available
+  std::string replay_file;                      // session whose hand is replayed without a device; empty: none
   enum class Person { Mouse, Simulated };
-  Person person = Person::Mouse;  // moves a device that has no real hand
+  Person person = Person::Mouse;  // person who moves a device without a real hand
 };
 
 struct HapticWord {

@@ -14,9 +14,9 @@ namespace afm::servo {
 // Limits of a program that is kept running. They count the time in which this process runs, so that neither a sleeping
 // machine nor a stopped keeper looks like a program that hangs.
 struct KeepLimits {
-  std::chrono::milliseconds start{120'000};   // patience before the first beat
-  std::chrono::milliseconds silence{10'000};  // between two beats
-  std::chrono::milliseconds end{8'000};       // after SIGTERM; longer than a program needs that ends by itself
+  std::chrono::milliseconds start{120'000};   // limit of the wait for the first beat
+  std::chrono::milliseconds silence{10'000};  // longest time between two beats
+  std::chrono::milliseconds end{8'000};       // allowed time after SIGTERM; longer than a program needs to end
 };
 
 // Runs `program` with `arguments` and restarts it after each failure, crash or silence, until it exits with success or
@@ -28,10 +28,10 @@ core::Result<void> keep_running(const std::string& program, const std::vector<st
 
 inline constexpr int kMostRestarts = 5;
 
-// Descriptor at which the program beats.
+// Descriptor to which the program sends its beats.
 inline constexpr int kBeatDescriptor = 3;
 
-// The other end, in the program that is kept running. One thread.
+// Other end of keep_running(), in the program that is kept running. One thread.
 class KeptBeat {
  public:
   // Takes over the descriptor. WrongUsage: it is no socket.

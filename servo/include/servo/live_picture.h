@@ -31,25 +31,25 @@ struct LookSquare {
   double half_m = 0;
 };
 
-// A look that has ended.
+// Result of a completed look.
 struct LookResult {
-  std::size_t particle = 0;       // the one that was nearest to the tip
-  std::size_t lines = 0;          // fewer than physics::kLookLines if the hand came down
-  std::optional<double> off_m{};  // from the place shown before to the measured one; nothing: not found
-  double swept_above_n = 0;       // gentle load, if the scan pressed harder and pushed the particle away; 0: it did not
+  std::size_t particle = 0;       // shown particle that was nearest to the tip
+  std::size_t lines = 0;          // number of lines, fewer than physics::kLookLines if the hand came down
+  std::optional<double> off_m{};  // distance from the place shown before to the measured one; empty: not found
+  double swept_above_n = 0;       // gentle load that the scan exceeded while it pushed the particle away; 0: it did not
 };
 
 // Picture as a wall shows it.
 struct PictureNow {
   std::uint32_t level = 0;
-  std::vector<Known> known{};  // one for each particle
-  std::size_t particle = 0;    // shown nearest to the tip; the figures below are its
-  double age_s = 0;            // time since it was measured
-  double doubt_m = 0;          // doubt about its place (M61)
+  std::vector<Known> known{};  // state of each particle
+  std::size_t particle = 0;    // particle shown nearest to the tip, described by the figures below
+  double age_s = 0;            // time since it was last measured
+  double doubt_m = 0;          // doubt about the particle's place (M61)
   bool all_measured = true;
-  std::optional<double> look_share{};  // share of lines done in the current look
-  std::uint64_t looks = 0;             // looks that have ended
-  LookResult newest{};                 // the last of them
+  std::optional<double> look_share{};  // fraction of lines done in the current look; empty: none
+  std::uint64_t looks = 0;             // number of completed looks
+  LookResult newest{};                 // newest completed look
 };
 
 // Picture that a person has of the particles and pushes by, at level 1 and 2 (scene::SharedLevel), from what a servo
@@ -75,11 +75,11 @@ class LivePicture {
   const PictureState& state() const { return state_; }
   const PictureNow& now() const { return now_; }  // picture after the newest sample
 
-  const scene::PushSettings& settings() const { return settings_; }  // as given to follow_settings(); default: none
+  const scene::PushSettings& settings() const { return settings_; }  // settings of follow_settings(), default: none
 
   bool looks() const { return look_ != nullptr; }
   std::optional<LookSquare> square() const;  // square of the current look
-  bool lifted() const { return lifted_; }    // a look can begin
+  bool lifted() const { return lifted_; }    // true: a look can begin
 
  private:
   friend void follow_settings(std::unique_ptr<LivePicture>&, const scene::SharedParticles&, const scene::SharedDevice&,
@@ -107,19 +107,19 @@ class LivePicture {
   physics::SampleDrift drift_;
   std::vector<double> reach_m_;                    // footprint radius of each particle
   std::vector<double> gentle_n_;                   // load up to which a scan climbs each particle
-  std::vector<physics::Time> stale_after_;         // age for each particle
-  std::vector<physics::PlaceDoubt> doubts_;        // one for each particle
-  std::vector<scene::ParticlePage> start_;         // places after all particles were put back
-  std::unique_ptr<haptics::FeltParticles> model_;  // null at level 1
+  std::vector<physics::Time> stale_after_;         // age at which each particle becomes stale
+  std::vector<physics::PlaceDoubt> doubts_;        // doubt about the place of each particle
+  std::vector<scene::ParticlePage> start_;         // places after all particles have been put back
+  std::unique_ptr<haptics::FeltParticles> model_;  // model of the computed places; null at level 1
   PictureState state_;
   PictureNow now_;
   std::unique_ptr<Look> look_;
   scene::PushSettings settings_{};
-  bool ordered_ = false;   // a look, by an event before the next sample
-  bool put_back_ = false;  // the same for all particles
+  bool ordered_ = false;   // true: an event before the next sample ordered a look
+  bool put_back_ = false;  // true: an event before the next sample put all particles back
   bool lifted_ = false;
-  std::int64_t time_ns_ = 0;   // newest tick; 0: none
-  std::int64_t since_ns_ = 0;  // start of the drift
+  std::int64_t time_ns_ = 0;   // time of the newest tick; 0: none
+  std::int64_t since_ns_ = 0;  // time at which the drift began
   glm::dvec2 tip_m_{0.0};
   double tip_z_m_ = 0;
 };

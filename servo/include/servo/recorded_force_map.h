@@ -11,9 +11,9 @@ namespace afm::servo {
 // RecordedSession::law_map or its curve alone; the file is needed to show the map again (exhibit/frame/recorded_map.h).
 struct RecordedForceMap {
   std::string file;                    // absolute path at the time of the recording
-  std::string digest;                  // 64-bit FNV-1a of its bytes, 16 hexadecimal digits
-  std::string reading;                 // JSON of curves/fitting/map_reading.h
-  std::array<std::size_t, 2> pixel{};  // column and row of the curve that gives lever and look, or is felt
+  std::string digest;                  // 64-bit FNV-1a of the file's bytes, 16 hexadecimal digits
+  std::string reading;                 // reading of the file as JSON of curves/fitting/map_reading.h
+  std::array<std::size_t, 2> pixel{};  // column and row of the curve that gives lever and appearance, or is felt
 
   bool operator==(const RecordedForceMap&) const = default;
 };

@@ -29,10 +29,10 @@ class ReleaseLink {
  private:
   void send_path(int socket) noexcept;
 
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;  // guard of the members below
   int watchdog_;
   core::FileDescriptor renderer_;
-  core::FileDescriptor device_;  // duplicate of the device's
+  core::FileDescriptor device_;  // duplicate of the device's descriptor
   std::string letter_;
 };
 

@@ -20,14 +20,14 @@ namespace afm::servo {
 // Behaviour of touchafm-servo after its renderer has died: it keeps the device for this time and offers its segment to
 // a new renderer.
 struct Linger {
-  double seconds = 0;   // 0: exit at once
+  double seconds = 0;   // time to wait for a new renderer; 0: exit at once
   std::string program;  // path of touchafm-servo
   int segment = -1;
-  std::uint64_t scene_digest = 0;      // scene of the segment
-  std::vector<std::string> arguments;  // servo_arguments()
+  std::uint64_t scene_digest = 0;      // digest of the segment's scene
+  std::vector<std::string> arguments;  // arguments as from servo_arguments()
 };
 
-// Without a beat of the watchdog for this long, nothing guards the hand: the servo releases it and ends.
+// Silence of the watchdog after which the servo releases the hand, which nothing guards any more, and ends.
 inline constexpr int kWatchdogSilentMs = 80;
 
 // Thread that waits for the end of a servo: its renderer closes the socket, a signal asks it to exit, its watchdog
@@ -56,9 +56,9 @@ class RendererMonitor {
   int watchdog_;
   ReleaseLink& link_;
   Linger linger_;
-  int missed_beats_ = 0;  // waits in a row without one
+  int missed_beats_ = 0;  // number of successive waits without a beat
   core::FileDescriptor done_;
-  std::thread thread_;  // last member: it uses all the others
+  std::thread thread_;  // last member, because the thread uses all the others
 };
 
 }  // namespace afm::servo

@@ -19,9 +19,9 @@ namespace afm::servo {
 
 // First number of a tick or an event that a replay did not reproduce.
 struct Difference {
-  std::size_t index = 0;  // index of the sample or the event
-  std::string quantity;   // "hand_force_N"
-  double recorded = 0;    // numeric value for an enumerator
+  std::size_t index = 0;  // index of the differing sample or event
+  std::string quantity;   // name of the quantity, "hand_force_N"
+  double recorded = 0;    // recorded value, the number of an enumerator
   double replayed = 0;
 };
 
@@ -29,7 +29,7 @@ struct Replay {
   std::size_t ticks = 0;   // number of ticks compared
   std::size_t events = 0;  // number of events in the replay
   std::size_t different_ticks = 0;
-  std::optional<Difference> first;  // first difference among the samples
+  std::optional<Difference> first;  // first difference of a sample
   std::optional<Difference> first_event;
   double largest_tip_n = 0;   // largest difference of the force on the tip
   double largest_hand_n = 0;  // largest difference of the force on the hand, along the sample's normal
@@ -52,7 +52,7 @@ struct ReplayedTick {
   const scene::TipSample& sample;
   std::span<const scene::TipEvent> events;
   std::span<const scene::ParticlePage> pages;
-  const LivePicture* picture = nullptr;  // at level 1 and 2
+  const LivePicture* picture = nullptr;  // picture at level 1 and 2; null at level 0
 };
 using HearTick = std::function<void(const ReplayedTick& tick)>;
 
@@ -68,7 +68,7 @@ struct ReplayedParticles {
   std::vector<scene::MarkTile> tiles{};  // marks of a soft sample or of ink
   scene::TipPush push;
   scene::PlannedPush plan;
-  std::optional<PictureNow> picture{};  // at level 1 and 2: pages are those that it shows
+  std::optional<PictureNow> picture{};  // picture at level 1 and 2, shown in `pages`; empty at level 0
 };
 
 // Replays a session with particles up to its last tick at or before `time_ns`, and at least its first. Fails as

@@ -40,7 +40,7 @@ class ServoClient {
   // arrives.
   core::Result<Update> poll(std::int64_t now_ns);
 
-  // From now on, passes everything that poll() returns to `audience` first, in a separate thread and within
+  // Starts to pass everything that poll() returns to `audience` first, in a separate thread and within
   // milliseconds, for uses that cannot wait for a frame. `audience` must outlive this object. Call once.
   void listen(TipAudience& audience);
 
@@ -74,15 +74,15 @@ class ServoClient {
   std::span<const scene::ParticlePage> particle_pages() const { return pages_; }
   std::span<const std::uint32_t> changed_pages() const { return changed_pages_; }
 
-  // The same for the tiles of a soft sample or of ink, kMarkTiles of them or none; marks() counts the changes.
+  // Newest tiles of a soft sample or of ink, kMarkTiles of them or none; marks() counts the changes.
   std::span<const scene::MarkTile> mark_tiles() const { return tiles_; }
   std::uint64_t marks() const { return marks_; }
   scene::ServoTiming timing() const { return side_.servo_timing().value_or(scene::ServoTiming{}); }
   const haptics::ServoSettings& settings() const { return settings_; }
-  const scene::SharedDevice& device() const { return device_; }  // the servo's device, once poll() has run
+  const scene::SharedDevice& device() const { return device_; }  // device of the servo, valid after the first poll()
   const scene::SharedModel& model() const { return segment_.model(); }
   scene::Topography topography() const { return segment_.topography(); }
-  const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as last placed
+  const std::array<double, 16>& room_from_sample() const { return room_from_sample_; }  // as in the last place()
 
   // Parameters of a material after this edit; edit 0: as loaded.
   const scene::SharedContact& parameters(std::size_t material, std::uint32_t edit_revision) const;
@@ -101,7 +101,7 @@ class ServoClient {
   // Removes the force at once, also in contact; the hand must lift and press Turn-On again. The choice stays. Without a
   // choice there is no force to remove.
   void take_force_away();
-  std::int32_t chosen() const { return selection_.material; }  // may differ from the tip's current material; -1: none
+  std::int32_t chosen() const { return selection_.material; }  // can differ from the tip's current material; -1: none
 
   // Changes the parameters of a material, given by its index in the shared model; returns the revision of the edit.
   // Like a selection, it takes effect once the tip is off the sample, after the force has been removed, so that the
@@ -126,14 +126,14 @@ class ServoClient {
 
   struct Heard {
     std::int64_t time_ns = 0;
-    int polls = 0;  // since then
+    int polls = 0;  // number of polls since then
   };
   struct Edit {
     scene::SharedContact parameters;
-    std::shared_ptr<const scene::SharedMeasuredCurve> curve;  // null: that of the model
+    std::shared_ptr<const scene::SharedMeasuredCurve> curve;  // null: the curve of the model
   };
 
-  const Edit* edit_of(std::uint32_t revision) const;  // null: none of ours
+  const Edit* edit_of(std::uint32_t revision) const;  // edit of this client; null: none of ours
 
   void go_on();
   void take_state(std::int64_t now_ns);
@@ -154,7 +154,7 @@ class ServoClient {
   std::vector<std::uint32_t> changed_pages_;
   std::vector<scene::MarkTile> tiles_;
   std::uint64_t marks_ = 0;
-  std::optional<Heard> heard_;     // time at which its tick last changed
+  std::optional<Heard> heard_;     // time at which the servo's tick last changed
   std::uint32_t script_base_ = 0;  // newest script of the predecessor
   std::uint32_t leads_ = 0;
   std::uint64_t beats_ = 0;
@@ -164,7 +164,7 @@ class ServoClient {
   std::optional<std::int64_t> stopped_ns_;  // time of the last stop()
   Picture picture_ = Picture::Seen;         // state last set by set_picture()
   std::unique_ptr<TipListener> listener_;
-  std::unique_ptr<Servo> servo_;  // last member: it ends before its segment is destroyed
+  std::unique_ptr<Servo> servo_;  // last member, because the servo must end before its segment is destroyed
 };
 
 }  // namespace afm::servo

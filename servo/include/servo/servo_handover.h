@@ -34,7 +34,7 @@ class HandoverPort {
   HandoverPort& operator=(HandoverPort&&) = delete;
   ~HandoverPort();
 
-  int descriptor() const { return listener_.get(); }  // readable when a renderer has connected
+  int descriptor() const { return listener_.get(); }  // descriptor that is readable when a renderer has connected
 
   // Shows the segment and the servo's arguments to a new renderer, and waits at most a second for the answer. Stay:
   // `lifeline` closes when that renderer dies. Leave: the renderer needs a different servo. Nobody: the peer belonged
@@ -53,11 +53,11 @@ class HandoverPort {
 // Waiting servo, as seen by the renderer. Destroying it asks the servo to exit.
 struct WaitingServo {
   core::FileDescriptor segment;
-  core::FileDescriptor lifeline;  // closes when this process dies
-  core::FileDescriptor process;   // pidfd
+  core::FileDescriptor lifeline;  // socket that closes when this process dies
+  core::FileDescriptor process;   // pidfd of the servo
   std::vector<std::string> arguments;
 
-  void stay() const;  // answer that keeps it running
+  void stay() const;  // sends the answer that keeps the servo running
 };
 
 // Sockets of the servos waiting for a renderer of `program`, those with this scene and these arguments first. A killed
@@ -65,11 +65,11 @@ struct WaitingServo {
 std::vector<std::filesystem::path> find_waiting_servos(const std::string& program, std::uint64_t scene_digest,
                                                        const std::vector<std::string>& arguments);
 
-// Empty if nobody answers there within a second.
+// Connects to a waiting servo. Empty if nobody answers within a second.
 std::optional<WaitingServo> visit_servo(const std::filesystem::path& socket);
 
 // Waits for the process behind a pidfd; false if it still runs after that time.
-inline constexpr int kLeaveMs = 2000;  // patience with a servo that was asked to exit
+inline constexpr int kLeaveMs = 2000;  // longest wait for a servo that was asked to exit
 bool process_ended_within(const core::FileDescriptor& process, int milliseconds);
 
 }  // namespace afm::servo

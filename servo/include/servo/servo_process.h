@@ -54,12 +54,12 @@ class ServoProcess final : public Servo {
   bool ended_within(int milliseconds) noexcept;
 
   pid_t pid_;
-  core::FileDescriptor process_;  // pidfd
+  core::FileDescriptor process_;  // pidfd of the child
   core::FileDescriptor lifeline_;
   scene::RendererSide& side_;
   std::optional<int> exit_status_;
   core::OnInterruption terminate_;
-  std::unique_ptr<RendererGuard> guard_;  // last member: it ends first
+  std::unique_ptr<RendererGuard> guard_;  // last member, because it must end first
 };
 
 // Servo started by another renderer, which has died. It is not a child of this process.
@@ -73,17 +73,17 @@ class AdoptedServo final : public Servo {
   ~AdoptedServo() override;
 
   bool alive() noexcept override { return !exit_status().has_value(); }
-  std::optional<int> exit_status() noexcept override;  // always 1
+  std::optional<int> exit_status() noexcept override;  // code 1 once it has ended, because its own is unknown
 
  private:
   AdoptedServo(WaitingServo waiting, scene::SharedSegment& segment, scene::RendererSide& side);
 
   WaitingServo waiting_;
   scene::RendererSide& side_;
-  std::unique_ptr<RendererGuard> guard_;  // last member: it ends first
+  std::unique_ptr<RendererGuard> guard_;  // last member, because it must end first
 };
 
-// The same loop as a thread of this process, for sanitizers and debuggers. Its pages are not locked, so it reports
+// The servo's loop as a thread of this process, for sanitizers and debuggers. Its pages are not locked, so it reports
 // itself as not real-time; a debugger's stop disarms it.
 class ServoThread final : public Servo {
  public:

@@ -19,7 +19,7 @@ namespace afm::servo {
 // Places in a picture at a moment, in the scanner's frame, and the times at which they were measured, as in TipState.
 struct PictureState {
   std::vector<scene::ParticlePage> shown{}, measured{};  // pages_of() the particles
-  std::vector<std::int64_t> seen_ns{};                   // one for each particle
+  std::vector<std::int64_t> seen_ns{};                   // time at which each particle was measured
 
   bool empty() const { return seen_ns.empty(); }
 };
@@ -28,42 +28,42 @@ struct PictureState {
 // off them.
 struct RecordedParticles {
   scene::SharedParticles set;
-  std::vector<scene::ParticlePage> pages;  // pages_of(set.count)
-  std::vector<scene::MarkTile> tiles{};    // kMarkTiles of a soft sample or of ink
-  PictureState picture{};                  // at level 1 and 2; empty: all measured at the first tick
+  std::vector<scene::ParticlePage> pages;  // poses, pages_of(set.count) pages
+  std::vector<scene::MarkTile> tiles{};    // marks of a soft sample or of ink, kMarkTiles tiles
+  PictureState picture{};                  // picture at level 1 and 2; empty: all measured at the first tick
 };
 
 // Recording of one material, with everything that its forces depend on: every tick's sample and every event of the
 // servo. The first sample follows a state without force or relevant motion (haptics::ServoLoop), so that a replay gives
 // the same forces bit for bit.
 struct RecordedSession {
-  std::string material;             // name in the material file
+  std::string material;             // name of the material in its file
   scene::SharedContact parameters;  // parameters in effect; a replay has one curve and one surface at most
   std::string sources{};  // sources of the parameters, curves::felt_sources(); empty: a file of 0.2.0 or older
-  std::optional<scene::SharedMeasuredCurve> curve;     // Law::Measured only
-  std::optional<scene::SharedHeightField> surface;     // none: a topography, or a plane
-  scene::Topography topography;                        // without columns: none
-  std::shared_ptr<const scene::SharedLawMap> law_map;  // map for parameters.law_map; null: none
+  std::optional<scene::SharedMeasuredCurve> curve;     // recorded curve, only for Law::Measured
+  std::optional<scene::SharedHeightField> surface;     // height field; empty: the sample is a topography or a plane
+  scene::Topography topography;                        // topography; no columns: none
+  std::shared_ptr<const scene::SharedLawMap> law_map;  // map of moduli and adhesions for parameters.law_map; null: none
   std::optional<RecordedForceMap> force_map;           // file of the map of law_map or curve; empty: none, or older
   std::optional<RecordedParticles> particles;
-  bool has_plans = false;  // true: its samples have the plans of pushes; false: none, or an older file
+  bool has_plans = false;  // true: the samples have the plans of pushes; false: none, or an older file
   std::array<double, 16> room_from_sample{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // as in SceneTransforms
   scene::SharedDevice device;
   double rate_hz = 0;
   bool dead_man = false;
   bool realtime = false;
-  double hand_m_per_m = 0;  // position scale
-  double hand_n_per_n = 0;  // force scale
-  double slow_motion = 1;   // as in TipState
+  double hand_m_per_m = 0;  // scale of positions
+  double hand_n_per_n = 0;  // scale of forces
+  double slow_motion = 1;   // slow-motion factor, as in TipState
   std::vector<scene::TipSample> samples;
   std::vector<scene::TipEvent> events;
   std::vector<std::string> shown;            // names of the materials on the wall
-  std::vector<EarlierCurve> earlier_curves;  // on the wall when the session began
-  std::vector<WallFrame> wall;               // live window only, in time order
-  bool complete = true;                      // false: the file was cut, and this is the rest
+  std::vector<EarlierCurve> earlier_curves;  // curves that were on the wall when the session began
+  std::vector<WallFrame> wall;               // frames of the live window, in time order
+  bool complete = true;                      // false: the file was cut, and this session is its beginning
 
   double seconds_since_start(std::int64_t time_ns) const;
-  const scene::TipEvent* find(physics::EventKind kind) const;  // first such event, or null
+  const scene::TipEvent* find(physics::EventKind kind) const;  // first event of that kind, or null
 };
 
 // Scene of a session for a servo that replays it: one node, the sample, and its material twice, because the session may

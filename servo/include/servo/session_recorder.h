@@ -27,7 +27,7 @@ bool can_begin_with(const scene::TipSample& sample, const scene::TipState& tip, 
 // any shorter part of it can be replayed. Its particles are those for the settings in use. One thread.
 class SessionRecorder {
  public:
-  static constexpr std::size_t kLongestTicks = 1'800'000;  // 30 minutes at 1 kHz, about 400 MB
+  static constexpr std::size_t kLongestTicks = 1'800'000;  // longest session, 30 minutes at 1 kHz, about 400 MB
 
   // Adds everything new, in time order. True if a session begins with this sample; the previous one is then finished().
   // `picture`, if there is one, has had the sample; no session begins while it looks again.
@@ -35,8 +35,8 @@ class SessionRecorder {
   void add(const scene::TipEvent& event);
   void add(const WallFrame& frame);
 
-  // The servo has no contact, and all of its samples were added: the next one is a contact's first. So is that of a new
-  // servo.
+  // Call when the servo has no contact and all of its samples were added: the next sample is the first of a contact, as
+  // is that of a new servo.
   void has_no_contact() { first_ = true; }
 
   // The file of the map that every later session of a whole map was felt on.
@@ -72,10 +72,10 @@ class SessionRecorder {
   std::optional<RecordedForceMap> force_map_;
   std::optional<RecordedSession> finished_;
   std::optional<scene::TipSample> previous_;
-  std::optional<scene::TipEvent> put_;  // event of particles that were put somewhere, whose sample is still to come
-  ReachedPlaces places_;                // places in the current session
-  std::size_t ticks_ = 0;               // ticks in the current session
-  bool first_ = true;                   // the next sample is a contact's first
+  std::optional<scene::TipEvent> put_;  // event of particles that were put elsewhere, until its sample arrives
+  ReachedPlaces places_;                // places reached in the current session
+  std::size_t ticks_ = 0;               // number of ticks in the current session
+  bool first_ = true;                   // true: the next sample is the first of a contact
   bool scale_known_ = false;
 };
 

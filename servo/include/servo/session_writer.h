@@ -17,14 +17,14 @@ class SessionEncoder;
 // readable if the writer is interrupted at any point. One thread.
 class SessionWriter {
  public:
-  static constexpr std::int64_t kPauseNs = 250'000'000;  // between two parts
+  static constexpr std::int64_t kPauseNs = 250'000'000;  // interval between two parts
 
   // Creates a file; fails if one of that name exists, or if it is not writable. Uses only the session's header.
   static core::Result<SessionWriter> create(const RecordedSession& session, const std::string& path);
 
   SessionWriter(SessionWriter&&) noexcept;
   SessionWriter& operator=(SessionWriter&&) noexcept;
-  ~SessionWriter();  // leaves the file as it is
+  ~SessionWriter();  // leaves an unfinished file as it is
 
   // Appends `part`, the data since the last call.
   core::Result<void> add(const RecordedSession& part);

@@ -41,7 +41,7 @@ class TipListener {
 
  private:
   struct HandedOn {
-    core::SpscRing<scene::TipSample, 16384> samples;  // 16 s, as in the segment
+    core::SpscRing<scene::TipSample, 16384> samples;  // ring of 16 s at 1 kHz, as in the segment
     core::SpscRing<scene::TipEvent, 4096> events;
   };
 
@@ -53,7 +53,7 @@ class TipListener {
   TipAudience& audience_;
   std::unique_ptr<HandedOn> handed_on_ = std::make_unique<HandedOn>();
   std::atomic<bool> ending_{false};
-  std::thread thread_;  // last member: it uses all the others
+  std::thread thread_;  // last member, because the thread uses all the others
 };
 
 }  // namespace afm::servo

@@ -16,7 +16,7 @@ namespace afm::servo {
 
 struct RecordedWand {
   scene::Pose pose;
-  bool orientation_valid = false;  // as in input::WandState
+  bool orientation_valid = false;  // true: the orientation is valid, as in input::WandState
   bool position_valid = false;
   bool connected = false;
   std::uint32_t buttons = 0;
@@ -45,8 +45,8 @@ struct RecordedScanChange {
   double noise_m = 0;
   double drift_m_per_s = 0;
   double apex_distance_m = 0;
-  std::optional<double> free_amplitude_m{};  // tapping lever alone; absent from older files
-  std::optional<double> drive_hz{};          // tapping lever alone; absent from older files
+  std::optional<double> free_amplitude_m{};  // only for a tapping lever; absent from older files
+  std::optional<double> drive_hz{};          // only for a tapping lever; absent from older files
 
   bool operator==(const RecordedScanChange&) const = default;
 };
@@ -103,12 +103,12 @@ constexpr void for_each_field(Visit&& visit, Record&... part) {
 }
 static_assert(scene::all_fields_described<RecordedHandPart>());
 
-// A map that is felt whole, and what is shown of its curves. SI.
+// A map that is felt whole, and the visible part of its curves. SI.
 struct RecordedMapView {
-  std::string quantity{};  // quantity of its picture: "modulus"
+  std::string quantity{};  // quantity of the map's picture: "modulus"
   bool slice = false;
-  std::optional<double> equal_force_n{};  // force of the surface; empty: none is shown
-  double reduced_modulus_pa = 0;          // law below the tip, as in scene::LawHere
+  std::optional<double> equal_force_n{};  // force of the surface of equal force; empty: no surface
+  double reduced_modulus_pa = 0;          // modulus of the law below the tip, as in scene::LawHere
   double adhesion_j_per_m2 = 0;
 
   bool operator==(const RecordedMapView&) const = default;
@@ -127,29 +127,29 @@ static_assert(scene::all_fields_described<RecordedMapView>());
 // State of the wall in one frame. Together with the servo's tick at the same time, it determines the picture. Names are
 // those of the files and the command line; empty: none.
 struct WallFrame {
-  std::int64_t time_ns = 0;                   // CLOCK_MONOTONIC, time of the drawn tip state
-  std::array<double, 16> room_from_sample{};  // as in SceneTransforms: sent to the servo with this frame
-  std::array<double, 16> navigation{};        // displacement of the scene, room from room, column by column
-  std::string centerpiece{};                  // "instrument", "analogy" or "journey"
-  double journey_orders = 0;                  // 0 to 9
-  double fade = 0;                            // 0 to 1
-  std::string hovered{};                      // material under the wand or mouse
+  std::int64_t time_ns = 0;                   // time of the drawn tip state, CLOCK_MONOTONIC
+  std::array<double, 16> room_from_sample{};  // transform sent to the servo with this frame, as in SceneTransforms
+  std::array<double, 16> navigation{};        // displacement of the scene, room from room, column-major
+  std::string centerpiece{};                  // centre of the wall: "instrument", "analogy" or "journey"
+  double journey_orders = 0;                  // position in the journey, 0 to 9
+  double fade = 0;                            // opacity of the fade, 0 to 1
+  std::string hovered{};                      // name of the material under the wand or mouse
   std::optional<RecordedWand> wand{};
-  scene::Pose head{};  // viewer of the drawn picture
+  scene::Pose head{};  // pose of the viewer for whom the picture was drawn
   double ipd_m = 0;
-  std::string stereo{};  // stereo mode: "anaglyph-red-cyan"
+  std::string stereo{};  // name of the stereo mode: "anaglyph-red-cyan"
   bool eyes_swapped = false;
-  std::string panels{};  // "samples", "parameters", "friction-loop", "sources", "keys" or "none"
+  std::string panels{};  // panels shown: "samples", "parameters", "friction-loop", "sources", "keys" or "none"
   std::string guidance{};
   bool retracting = false;
   double release_z_m = 0;                               // height of release, as in ActiveContact
-  std::vector<std::array<std::string, 3>> servo_row{};  // name, value, source
+  std::vector<std::array<std::string, 3>> servo_row{};  // rows of name, value, source
   std::optional<RecordedScan> scan{};
-  std::vector<RecordedScanChange> scan_changes{};  // changes of `scan`
+  std::vector<RecordedScanChange> scan_changes{};  // changes of the scan's settings
   std::optional<RecordedHandPart> scan_hand{};
-  std::optional<bool> false_colours{};   // colours of the sample's heights; absent from older files
-  std::optional<bool> stroboscope{};     // swing of a lever that taps, slowed down; absent from older files
-  std::optional<RecordedMapView> map{};  // map below the tip that is felt whole; absent from older files
+  std::optional<bool> false_colours{};   // true: heights in false colours; absent from older files
+  std::optional<bool> stroboscope{};     // true: slowed-down swing of a tapping lever; absent from older files
+  std::optional<RecordedMapView> map{};  // map that is felt whole below the tip; absent from older files
 
   bool operator==(const WallFrame&) const = default;
 };
@@ -185,7 +185,7 @@ static_assert(scene::all_fields_described<WallFrame>());
 // Curve of a material that was on the wall when a session began.
 struct EarlierCurve {
   std::string material{};
-  std::vector<std::array<double, 2>> points{};  // Z in nm, force in nN
+  std::vector<std::array<double, 2>> points{};  // points with Z in nm and force in nN
 
   bool operator==(const EarlierCurve&) const = default;
 };

@@ -26,7 +26,7 @@ class Watchdog {
 
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
-  ~Watchdog();  // the device is closed: the watchdog exits. Leaves no zombie
+  ~Watchdog();  // call after the device is closed: the watchdog exits. Leaves no zombie
 
   // Socket of its beats, one every 10 ms; closed by its end. Take beats with take_beat().
   int descriptor() const noexcept { return socket_.get(); }

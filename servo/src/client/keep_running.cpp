@@ -38,7 +38,7 @@ core::Error cannot_start(const std::string& program, int error) {
   return {core::ErrorCategory::Failed, fmt::format("cannot start {}: {}", program, core::system_error(error))};
 }
 
-// In the child; only calls that are safe there, as this process has other threads. Writes errno if it fails.
+// Runs in the child; makes only calls that are safe there, as this process has other threads. Writes errno on failure.
 [[noreturn]] void become(const char* program, char* const* words, int beats, int report, pid_t parent) {
   sigset_t none;
   ::sigemptyset(&none);
@@ -56,7 +56,7 @@ struct Ends {
 };
 
 core::Result<Ends> connect_to(const std::string& program) {
-  constexpr int kOutOfTheWay = kBeatDescriptor + 1;  // dup2() to itself would keep the flag that closes it
+  constexpr int kOutOfTheWay = kBeatDescriptor + 1;  // dup2() to itself would keep the close-on-exec flag
   std::array<int, 2> raw{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, raw.data()) != 0)
     return tl::unexpected(cannot_start(program, errno));
@@ -127,7 +127,7 @@ enum class Ending { ByItself, Silent, Late };
 struct Ended {
   int status = 0;
   Ending ending = Ending::ByItself;
-  bool beaten = false;  // it had drawn
+  bool beaten = false;  // true: the program has drawn
 };
 
 // Waits for the end of the program, and ends it if it hangs; passes on a signal to it once.
@@ -219,7 +219,7 @@ core::Result<KeptBeat> KeptBeat::at(int descriptor) {
     return core::wrong_usage(
         fmt::format("--kept: descriptor {} is not a socket; this option is for view --kiosk alone", descriptor));
   }
-  ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);  // not for the programs that this one starts
+  ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);  // descriptor hidden from programs that this one starts
   return KeptBeat(core::FileDescriptor(descriptor));
 }
 

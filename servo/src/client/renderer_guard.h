@@ -12,9 +12,9 @@ namespace afm::servo {
 // Second guard of the hand, a thread of the renderer, for a servo whose watchdog is gone too: zero force once the servo
 // has ended or not ticked for kRendererReleaseMs, and its end after kRendererKillMs. Silent as long as the watchdog is
 // there, which acts first.
-inline constexpr int kRendererReleaseMs = 60;  // three times the watchdog's
+inline constexpr int kRendererReleaseMs = 60;  // three times the watchdog's release time
 inline constexpr int kRendererKillMs = 1500;
-inline constexpr int kRendererCloseMs = 3000;  // longer than a servo's own ways to end
+inline constexpr int kRendererCloseMs = 3000;  // time longer than a servo needs to end by itself
 class RendererGuard {
  public:
   // `lifeline` is a socket to the servo, `process` its pidfd; they and the segment outlive this object.
@@ -28,7 +28,7 @@ class RendererGuard {
 
   core::FileDescriptor dismissal_;
   ForceGuard guard_;
-  std::thread thread_;  // last member: it uses all the others
+  std::thread thread_;  // last member, because the thread uses all the others
 };
 
 }  // namespace afm::servo

@@ -18,10 +18,10 @@ namespace afm::servo {
 
 namespace {
 
-constexpr std::int64_t kStopNs = 250'000'000;  // long enough that a servo that missed ticks notices it
+constexpr std::int64_t kStopNs = 250'000'000;  // time in which even a servo that missed ticks notices a stop
 
 constexpr std::int64_t kSilentNs = 200'000'000;
-constexpr int kSilentPolls = 3;  // polls; a frame loop that was itself stopped has received nothing either
+constexpr int kSilentPolls = 3;  // number of polls; a frame loop that was itself stopped has received nothing either
 
 // Error for a servo that ended unexpectedly; it has printed the details to stderr.
 core::Error ended(int status) {

@@ -53,7 +53,7 @@ core::Result<std::unique_ptr<ServoProcess>> ServoProcess::spawn(const std::strin
   return std::unique_ptr<ServoProcess>(new ServoProcess(*process, std::move(ours), segment, side));
 }
 
-// SIGTERM makes it release the hand, without a message about a dead renderer.
+// On an interruption SIGTERM makes the servo release the hand, without a message about a dead renderer.
 ServoProcess::ServoProcess(pid_t pid, core::FileDescriptor lifeline, scene::SharedSegment& segment,
                            scene::RendererSide& side)
     : pid_(pid),

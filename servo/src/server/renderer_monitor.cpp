@@ -55,7 +55,7 @@ RendererMonitor::Update RendererMonitor::wait_for(int descriptor, std::optional<
   const core::MonotonicClock clock;
   const std::int64_t end_ns = clock.now_ns() + std::int64_t{1'000'000} * milliseconds.value_or(0);
   while (!milliseconds || clock.now_ns() <= end_ns) {
-    if (::poll(watched.data(), watched.size(), kBeatWaitMs) < 0) continue;  // by a signal
+    if (::poll(watched.data(), watched.size(), kBeatWaitMs) < 0) continue;  // interrupted by a signal
     if (watched[2].revents != 0) return Update::Done;
     if (watched[1].revents != 0) return Update::Signal;
     if (!guarded(watched[3].revents != 0)) return Update::Unguarded;

@@ -164,7 +164,7 @@ std::optional<WaitingServo> visit_servo(const fs::path& path) {
   const auto address = address_of(path);
   if (!socket.is_open() || !address) return std::nullopt;
   if (::connect(socket.get(), as_socket_address(*address), sizeof(sockaddr_un)) != 0) {
-    if (errno == ECONNREFUSED) ::unlink(path.c_str());  // left by a killed servo
+    if (errno == ECONNREFUSED) ::unlink(path.c_str());  // socket left by a killed servo
     return std::nullopt;
   }
   const auto servo = core::trusted_peer(socket.get(), ::getuid());

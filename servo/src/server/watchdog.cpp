@@ -31,7 +31,7 @@ namespace afm::servo {
 namespace {
 
 constexpr int kWakeMs = 5;
-constexpr int kFirstBeatMs = 5000;  // a busy machine has taken more than a second to start a program
+constexpr int kFirstBeatMs = 5000;  // wait for the first beat; a busy machine takes seconds to start a program
 constexpr int kWatchdogLeaveMs = 200;
 
 // The process that created the socket pair; read before its number can have been reused.
@@ -48,7 +48,7 @@ void block_every_signal() {
   ::pthread_sigmask(SIG_SETMASK, &every, nullptr);
 }
 
-// Never chosen by the kernel's memory killer, where the user may ask for that.
+// Excludes this process from the kernel's memory killer, where the user may ask for that.
 void ask_for_memory() {
   const core::FileDescriptor score(::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC));
   for (const std::string_view wish : {"-1000", "0"}) {

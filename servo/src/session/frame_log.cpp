@@ -20,7 +20,7 @@ namespace afm::servo {
 
 namespace {
 
-constexpr mode_t kFrameLogMode = 0666;  // minus the user's umask
+constexpr mode_t kFrameLogMode = 0666;  // file mode, minus the user's umask
 constexpr double kDegreesPerRad = 180.0 / std::numbers::pi;
 constexpr int kReaderPatienceMs = 5000;
 constexpr auto kBetweenWrites = std::chrono::milliseconds(500);
@@ -45,7 +45,7 @@ core::Result<void> cannot_log(const std::string& path, int error) {
                        fmt::format("--frame-log: cannot write {} ({}); name a file in a writable folder", path, why));
 }
 
-// As core::write_all(), but waits only a while for the reader of a pipe.
+// Like core::write_all(), but waits only a while for the reader of a pipe.
 int write_patiently(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());

@@ -29,7 +29,7 @@ using scene::ParticlePose;
 
 constexpr std::int64_t kLineNs = 100'000'000;  // time of a line at OperatorsPicture::kLookRate
 static_assert(static_cast<double>(kLineNs) * physics::OperatorsPicture::kLookRate.si == 1e9);
-constexpr double kLookReach = 3.0;  // in footprint radii, to each side
+constexpr double kLookReach = 3.0;  // half size of a look's square, in footprint radii
 constexpr double kHalfLines = 0.5 * static_cast<double>(physics::kLookLines - 1);
 
 const ParticlePose& pose_in(const std::vector<ParticlePage>& pages, std::size_t particle) {
@@ -55,7 +55,7 @@ bool same_place(const ParticlePose& a, const ParticlePose& b) {
 // The particles as a person knows them: on a sample that rests, without scatter.
 std::unique_ptr<scene::SharedParticles> known_set(const scene::SharedParticles& set) {
   auto known = std::make_unique<scene::SharedParticles>(set);
-  known->level = {.level = 1};  // without drift, and with looks
+  known->level = {.level = 1};  // level without drift and with looks
   for (scene::SharedSpecies& species : known->species) species.scatter_seed = 0;
   return known;
 }
@@ -72,11 +72,11 @@ struct LivePicture::Look {
   std::size_t particle = 0;
   LookSquare square;
   std::int64_t begun_ns = 0;
-  std::size_t done = 0;  // lines
-  double load_n = 0;     // load of a scan that presses harder than is gentle
+  std::size_t done = 0;  // number of finished lines
+  double load_n = 0;     // load of a scan that presses too hard to climb every particle; 0: none
   std::vector<ParticlePage>
       truth;  // particles on the sample, which rest while the tip is off them; empty: not yet known
-  std::vector<std::optional<ParticlePose>> found{};  // one for each particle
+  std::vector<std::optional<ParticlePose>> found{};  // place found for each particle
 
   double line_m() const { return square.half_m / kHalfLines; }
   std::int64_t end_of_line(std::size_t line) const { return begun_ns + static_cast<std::int64_t>(line + 1) * kLineNs; }
@@ -172,7 +172,7 @@ void LivePicture::add(const scene::TipSample& sample, std::span<const ParticlePa
   figure();
 }
 
-// Where the particles are now, as a scan of all of them would find them.
+// Measures the places of all particles as a scan of all of them would find them.
 void LivePicture::measure_all(std::span<const ParticlePage> truth) {
   const glm::dvec2 way_m = drift_m(time_ns_);
   state_.shown.assign(truth.begin(), truth.end());
@@ -183,7 +183,7 @@ void LivePicture::measure_all(std::span<const ParticlePage> truth) {
   if (model_) model_->resume(state_.shown);
 }
 
-// A scan that presses harder than is gentle.
+// Follows a scan that presses harder than is gentle.
 void LivePicture::follow_scan(const scene::ScanLead& scan, double elapsed_s) {
   if (look_ && scan.hand == scene::ScanHand::Looks) look_->load_n = 1e-12 * scan.load_pn;
   haptics::ParticlePush push;
@@ -220,12 +220,12 @@ void LivePicture::begin_look() {
            .found = std::vector<std::optional<ParticlePose>>(count_)});
 }
 
-// The servo's pages may be older or newer than a sample.
+// True if the servo's pages belong to the sample; they may be older or newer.
 bool LivePicture::holds(std::span<const ParticlePage> truth, std::uint64_t digest) const {
   return truth.size() == start_.size() && scene::digest_of(truth, count_) == digest;
 }
 
-// The lines that are due, from below. During a look no particle moves on the sample.
+// Scans the lines that are due, from below. During a look no particle moves on the sample.
 void LivePicture::scan(std::uint64_t digest, std::span<const ParticlePage> truth) {
   if (look_->truth.empty() && holds(truth, digest)) {
     look_->truth.assign(truth.begin(), truth.end());
@@ -235,7 +235,7 @@ void LivePicture::scan(std::uint64_t digest, std::span<const ParticlePage> truth
   if (look_->done == physics::kLookLines) end_look();
 }
 
-// A particle is found in the line nearest to its middle, where it is at that moment.
+// Reads one line. A particle is found in the line nearest to its middle, at its place at that moment.
 void LivePicture::read_line() {
   Look& look = *look_;
   const glm::dvec2 way_m = drift_m(look.end_of_line(look.done));
@@ -296,7 +296,7 @@ void follow_settings(std::unique_ptr<LivePicture>& picture, const scene::SharedP
   scene::adjust(settings, *adjusted);
   auto made =
       LivePicture::create(*adjusted, device, picture && picture->level_ == level ? picture->state_ : PictureState{});
-  AFM_CHECK(made);  // the servo has built the same particles for this device
+  AFM_CHECK(made);  // always true, because the servo has built the same particles for this device
   picture = std::move(*made);
   picture->settings_ = settings;
 }

@@ -141,7 +141,7 @@ class Player {
     return given.has_value();
   }
 
-  // As of the newest tick.
+  // Particles after the newest tick.
   ReplayedParticles particles() {
     ReplayedParticles now{.pages = pages_,
                           .tiles = tiles_,
@@ -287,17 +287,17 @@ class Player {
   std::size_t first_event_ = 0;  // first event of the newest tick
   std::size_t next_event_ = 0;
   std::int32_t chosen_ = 0;
-  haptics::SampleAxes axes_;    // as last placed
+  haptics::SampleAxes axes_;    // axes of the last placement
   std::size_t next_frame_ = 0;  // next frame of the wall that may turn the sample
   std::uint32_t selection_ = 0;
-  scene::ScanLead scan_;     // as last sent
-  scene::PlannedPush plan_;  // as last sent
+  scene::ScanLead scan_;     // scan that was last sent
+  scene::PlannedPush plan_;  // plan that was last sent
   TipSample sample_;
   std::vector<TipEvent> events_;
   std::vector<scene::ParticlePage> pages_;
   std::vector<scene::MarkTile> tiles_;
   std::uint64_t digest_ = 0;              // digest of pages_
-  std::unique_ptr<LivePicture> picture_;  // null at level 0
+  std::unique_ptr<LivePicture> picture_;  // picture of the particles; null at level 0
 };
 
 }  // namespace

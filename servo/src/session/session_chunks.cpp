@@ -17,7 +17,7 @@ namespace afm::servo {
 namespace {
 
 constexpr std::size_t kNameBytes = 4;
-constexpr std::uint64_t kLongestPartNs = 1'000'000'000;  // longest part, the most that a cut file loses
+constexpr std::uint64_t kLongestPartNs = 1'000'000'000;  // longest part in ns, which a cut file loses at most
 constexpr std::size_t kSumBytes = sizeof(std::uint64_t);
 
 // True if a time belongs to a later part than the one that begins at `begin_ns`. Unsigned, since the difference of two
@@ -28,7 +28,7 @@ bool is_of_later_part(std::int64_t time_ns, std::int64_t begin_ns) {
 }
 
 std::string text_of(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // text of a file may not be UTF-8
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);  // `replace`: file texts may not be UTF-8
 }
 
 std::string bytes_of(const scene::SharedLawMap& map) {

@@ -18,22 +18,22 @@
 namespace afm::servo {
 
 inline constexpr std::string_view kSessionMagic = "AFMS";
-inline constexpr std::string_view kHeadChunk = "HEAD";        // header_of() as JSON
-inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if the sample has one
+inline constexpr std::string_view kHeadChunk = "HEAD";        // JSON of header_of()
+inline constexpr std::string_view kSurfaceChunk = "SURF";     // one SharedHeightField, if a height field is felt
 inline constexpr std::string_view kTopographyChunk = "TOPO";  // size, spacing and heights, if it has a topography
-inline constexpr std::string_view kLawMapChunk = "LAWS";      // size, spacing, moduli, adhesions, if it has such a map
-inline constexpr std::string_view kPartChunk = "PART";  // samples and events up to one moment, and frames of the wall
-inline constexpr std::string_view kEndChunk = "DONE";   // end of the file, without a payload
+inline constexpr std::string_view kLawMapChunk = "LAWS";      // size, spacing, moduli, adhesions, if it has a law map
+inline constexpr std::string_view kPartChunk = "PART";        // samples and events up to one moment, and wall frames
+inline constexpr std::string_view kEndChunk = "DONE";         // end of the file, no payload
 
 // Encodes a session, chunk by chunk.
 class SessionEncoder {
  public:
   // Beginning of the file and first chunk, followed by surface and particles.
   void head(const RecordedSession& session);
-  void part(const RecordedSession& session);  // data since the last part, one chunk per second
+  void part(const RecordedSession& session);  // encodes the data since the last part, one chunk per second
   void end();
 
-  const std::string& bytes() const { return bytes_; }  // since the last clear()
+  const std::string& bytes() const { return bytes_; }  // bytes since the last clear()
   void clear() { bytes_.clear(); }
 
  private:
@@ -61,7 +61,7 @@ class SessionDecoder {
   enum class Step { Chunk, Cut, Altered, End };
   Step next();
 
-  std::string_view name() const { return name_; }  // newest chunk
+  std::string_view name() const { return name_; }  // name of the newest chunk
   std::string_view payload() const { return payload_; }
 
  private:

@@ -33,7 +33,7 @@ using scene::SharedHeightField;
 using scene::TipEvent;
 using scene::TipSample;
 
-constexpr std::uint32_t kVersionOf010 = 3;  // written by TouchAFM 0.1.0
+constexpr std::uint32_t kVersionOf010 = 3;  // version written by TouchAFM 0.1.0
 constexpr double kFarthestM = 1e6;
 constexpr double kUnitWithin = 1e-3;
 constexpr double kUnitTurnWithin = 1e-9;
@@ -193,7 +193,7 @@ bool can_be_a_name(const std::string& name) {
   return !name.empty() && name.size() < scene::kNameLength && core::printable_line(name) == name;
 }
 
-// The poses of rods and islands, and of nothing else, turn about the vertical alone.
+// Returns whether the poses marked as rods are those of rods and islands, and these turn only about the vertical.
 bool can_be(const RecordedParticles& particles) {
   for (std::uint32_t i = 0; i < particles.set.count; ++i) {
     const scene::ParticlePose& pose = particles.pages[scene::page_of(i)].poses[i % scene::kPosesPerPage];
@@ -274,7 +274,7 @@ std::unique_ptr<scene::SharedModel> model_of(const RecordedSession& session) {
     model->curves[0] = *session.curve;
   }
   if (!session.samples.empty() && session.samples.front().scale_mode == scene::ScaleMode::Common) {
-    model->common_hand_m_per_m = session.hand_m_per_m;  // limit set by other materials too
+    model->common_hand_m_per_m = session.hand_m_per_m;  // limit set by other materials as well
     model->common_hand_n_per_n = session.hand_n_per_n;
   }
   model->topography = session.topography.size();

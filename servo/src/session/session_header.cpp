@@ -15,7 +15,7 @@ namespace afm::servo {
 
 namespace {
 
-constexpr const char* kFeltMeanForce = "mean-force";  // word for what is felt of a lever that taps; without: its push
+constexpr const char* kFeltMeanForce = "mean-force";  // felt mean force of a tapping lever; without this word its push
 
 // Omits rigid values: JSON has no infinity.
 nlohmann::json json_of(const physics::ContactParameters& contact) {

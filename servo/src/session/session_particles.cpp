@@ -66,7 +66,7 @@ struct NumberedTile {
   scene::MarkTile tile;
 };
 
-// `sample` is the soft one, or the ink.
+// Bytes of a soft sample or ink, `sample`, with its marks.
 template <class Sample>
 std::string marks_of(const Sample& sample, const RecordedParticles& particles) {
   std::string bytes;
@@ -166,7 +166,7 @@ bool read_ink(std::string_view payload, RecordedParticles& particles) {
   return read_marks(payload, particles.set.ink, particles) && is_ink(particles);
 }
 
-// In the order of a file.
+// Kinds of chunks in the order of a file.
 constexpr std::array kParticleChunks{
     ParticleChunk{"SOFT", true, "its soft sample is damaged", is_soft, soft_of, read_soft},
     ParticleChunk{"INKS", true, "its ink is damaged", is_ink, ink_of, read_ink},

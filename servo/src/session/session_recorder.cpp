@@ -25,7 +25,7 @@ bool same_contact(const TipSample& a, const TipSample& b) {
          a.settings == b.settings;
 }
 
-// Carried out because a person ordered it, not caused by the tip.
+// True for an event that a person ordered, not caused by the tip.
 bool is_order(physics::EventKind kind) {
   return kind == physics::EventKind::PushTakenBack || kind == physics::EventKind::ParticlesPutBack;
 }

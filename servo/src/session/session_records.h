@@ -26,7 +26,7 @@ inline constexpr std::size_t kSampleBytesWithoutPush = 288;
 inline constexpr std::size_t kSampleBytesWithoutSwing = 336;
 inline constexpr std::size_t kSampleBytesWithoutPlan = 352;
 inline constexpr std::size_t kSampleBytesWithoutLevel = 408;
-inline constexpr std::size_t kMostSampleBytes = 424;  // size without the settings, which are in no file
+inline constexpr std::size_t kMostSampleBytes = 424;  // size without the settings, which no file contains
 static_assert(offsetof(scene::TipSample, settings) == kMostSampleBytes &&
               offsetof(scene::TipSample, level) == kSampleBytesWithoutLevel &&
               offsetof(scene::TipSample, plan) == kSampleBytesWithoutPlan &&
@@ -73,7 +73,7 @@ bool take_all(std::string_view& bytes, std::vector<T>& values) {
                      [&](T& value) { return take(bytes, value); });
 }
 
-// The same for samples of which a version keeps the beginning, `size` bytes: the rest has its defaults.
+// Writes samples of a version that keeps only the first `size` bytes: the rest is read with its defaults.
 inline void put_samples(std::string& bytes, std::span<const scene::TipSample> samples, std::size_t size) {
   put(bytes, std::uint64_t{samples.size()});
   for (const scene::TipSample& sample : samples) bytes.append(reinterpret_cast<const char*>(&sample), size);

@@ -35,7 +35,7 @@ bool is_any(const RecordedSession&) { return true; }
 
 constexpr bool kPlans = true;
 
-// Numbers that are missing were in no release; 3, of TouchAFM 0.1.0, has no chunks.
+// Versions with chunks. Missing numbers were in no release; 3, of TouchAFM 0.1.0, has no chunks.
 constexpr std::array kVersions{
     SessionVersion{20, kSampleBytesWithoutPush, !kPlans, {"LAWS"}, vibrates},
     SessionVersion{18, kSampleBytesWithoutPush, !kPlans, {"LAWS"}, is_viscous},

@@ -15,9 +15,9 @@ namespace afm::servo {
 // that it belongs to, so that an older program reads all that it can replay and refuses the rest by its number.
 struct SessionVersion {
   std::uint32_t number;
-  std::size_t sample_bytes;                // beginning of a TipSample that it keeps
-  bool has_plans;                          // samples have the plans of pushes
-  std::array<std::string_view, 3> chunks;  // those beside HEAD, SURF, TOPO, PART and DONE, which all versions have
+  std::size_t sample_bytes;                // size of the beginning of a TipSample that the version keeps
+  bool has_plans;                          // true: samples have the plans of pushes
+  std::array<std::string_view, 3> chunks;  // chunks beyond HEAD, SURF, TOPO, PART and DONE, which all versions have
   bool (*is_of)(const RecordedSession& session);
 };
 
@@ -25,7 +25,7 @@ std::span<const SessionVersion> session_versions();
 
 const SessionVersion& version_of(const RecordedSession& session);
 
-// Version of this number; null: none of those with chunks.
+// Version with this number; null: no version with chunks has it.
 const SessionVersion* find_version(std::uint32_t number);
 
 bool may_have(const SessionVersion& version, std::string_view chunk);

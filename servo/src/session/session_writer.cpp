@@ -15,7 +15,7 @@ namespace afm::servo {
 
 namespace {
 
-constexpr mode_t kSessionMode = 0666;  // minus the user's umask
+constexpr mode_t kSessionMode = 0666;  // file mode, minus the user's umask
 
 core::Result<void> cannot_write(const std::string& path, int error) {
   return core::failure(core::ErrorCategory::Failed,

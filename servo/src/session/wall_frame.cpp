@@ -38,7 +38,7 @@ json to_json_value(const T& value) {
   }
 }
 
-// `to` is new, and stays empty if nothing was written, or by a version that did not know it.
+// Reads an optional field. `to` is new, and stays empty if nothing was written, or by an older version.
 template <class T>
 void from_json_value(const json& value, T& to) {
   if constexpr (kIsOptional<T>) {

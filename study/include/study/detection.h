@@ -27,13 +27,13 @@ struct YesNoCounts {
   std::size_t hits = 0, signals = 0, false_alarms = 0, noises = 0;
 };
 enum class RateCorrection {
-  None,      // unchanged rates; infinite for 0 and 1
-  LogLinear  // (count + 1/2)/(trials + 1) for all rates (Hautus 1995)
+  None,      // rates without correction; infinite for 0 and 1
+  LogLinear  // rates (count + 1/2)/(trials + 1) (Hautus 1995)
 };
 struct YesNo {
-  double d_prime = kNoValue;    // z(hit rate) - z(false alarm rate)
+  double d_prime = kNoValue;    // d' = z(hit rate) - z(false alarm rate)
   double criterion = kNoValue;  // c = -(z(hit rate) + z(false alarm rate))/2; above 0: too few "yes"
-  // from the variances of both rates (Gourevitch & Galanter 1967)
+  // intervals from the variances of both rates (Gourevitch & Galanter 1967)
   Interval d_prime_interval{}, criterion_interval{};
 };
 YesNo yes_no(const YesNoCounts& counts, RateCorrection correction);
@@ -41,16 +41,16 @@ YesNo yes_no(const YesNoCounts& counts, RateCorrection correction);
 // Number of each response to each stimulus, both in the same order.
 struct ConfusionMatrix {
   std::vector<std::string> names;
-  std::vector<std::vector<std::size_t>> counts;  // counts[shown][answered]
+  std::vector<std::vector<std::size_t>> counts;  // number of trials, counts[shown][answered]
 
   std::size_t trials() const;
   std::size_t right() const;
   double accuracy() const;
-  // Cohen 1960: (observed agreement - chance agreement)/(1 - chance agreement)
+  // Cohen's kappa (1960): (observed agreement - chance agreement)/(1 - chance agreement)
   double kappa() const;
-  // information about the stimuli in the answers, bits (Miller & Nicely 1955)
+  // information about the stimuli in the answers, in bits (Miller & Nicely 1955)
   double information_bits() const;
-  // one stimulus against all others shown
+  // counts for one stimulus against all other stimuli shown
   YesNoCounts against_the_rest(std::size_t name) const;
 };
 

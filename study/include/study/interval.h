@@ -15,14 +15,14 @@ inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // All confidence intervals of a study are 95 %.
 inline constexpr double kIntervalAlpha = 0.05;
 
-// An unbounded end is infinite; an undefined one is NaN.
+// Interval whose end is infinite if unbounded, and NaN if undefined.
 struct Interval {
   double low = kNoValue;
   double high = kNoValue;
 
   bool holds(double value) const { return low <= value && value <= high; }
 
-  // The part within a scale that must contain the true value, which keeps the coverage. NaN stays.
+  // The part within a scale that contains the true value, which preserves the coverage. NaN stays.
   Interval within(const Interval& scale) const {
     const auto clamped = [&](double end) { return std::isnan(end) ? end : std::clamp(end, scale.low, scale.high); };
     return {clamped(low), clamped(high)};
@@ -40,12 +40,12 @@ struct Estimate {
 
 // The result of a test. The only type with a p value, so that none is reported without its effect size and interval.
 struct TestResult {
-  std::string name;         // "paired t"
-  std::string statistic{};  // "t(19) = 2.18"
-  double p = kNoValue;      // two-sided unless the name says one-sided
+  std::string name;         // name of the test, "paired t"
+  std::string statistic{};  // text of the statistic, "t(19) = 2.18"
+  double p = kNoValue;      // p value, two-sided unless the name says one-sided
   std::string effect_name{};
   Estimate effect{};
-  double holm_p = kNoValue;  // among the tests next to it; NaN for a single test
+  double holm_p = kNoValue;  // p corrected for the tests reported with it (Holm); NaN for a single test
 };
 
 }  // namespace afm::study

@@ -14,28 +14,28 @@ namespace afm::study {
 struct Summary {
   std::size_t n = 0;
   double mean = kNoValue;
-  double sd = kNoValue;  // sample standard deviation, divided by n-1
+  double sd = kNoValue;  // sample standard deviation, with the divisor n-1
 };
 Summary summary_of(std::span<const double> values);
 
 // mean -+ t(0.975, n-1) SD/sqrt(n) (Student 1908).
 Interval t_interval(const Summary& summary);
-// For values on a bounded scale, which also bounds the mean.
+// Mean of values on a bounded scale, which also bounds the mean.
 Estimate mean_estimate(std::span<const double> values, const Interval& scale = {-kUnbounded, kUnbounded});
 
 // Comparison of two means, from different people with unequal variances or from the same people.
 struct TTest {
   double t = kNoValue;
   double degrees = kNoValue;
-  double p = kNoValue;  // two-sided
-  Estimate d;           // Cohen's d, or d_z of the differences
+  double p = kNoValue;  // two-sided p value
+  Estimate d;           // Cohen's d, or d_z of paired differences
 };
 
 // Welch 1947 with the degrees of freedom of Welch and Satterthwaite. d = (mean a - mean b)/pooled SD (Cohen 1988), its
 // interval by inverting the noncentral t of n_a + n_b - 2 degrees of freedom (Cumming & Finch 2001).
 TTest welch_test(const Summary& a, const Summary& b);
 
-// For differences: d_z = mean/SD, t = d_z sqrt(n); the interval by inverting the noncentral t of n-1 degrees.
+// Paired test of differences: d_z = mean/SD, t = d_z sqrt(n); interval by inverting the noncentral t of n-1 degrees.
 TTest paired_test(std::span<const double> differences);
 
 // Interval of d = t/scale, where t is noncentral t with `degrees` and noncentrality d scale.

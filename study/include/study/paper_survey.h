@@ -12,15 +12,15 @@ namespace afm::study {
 
 // The survey of Liu & Peng, Table 3: twenty people, eight questions, answers from 0 to 4.
 struct SurveyQuestion {
-  std::string_view item;  // "paper-1", as in data sets
+  std::string_view item;  // name of the item in data sets, "paper-1"
   std::string_view short_name;
-  std::string_view text;  // as printed in the paper
-  double mean, sd;        // numbers printed with two decimals; the SD is divided by n-1
+  std::string_view text;  // text as printed in the paper
+  double mean, sd;        // values printed with two decimals; the SD has the divisor n-1
 };
 
 inline constexpr std::size_t kSurveyPeople = 20;
 inline constexpr int kSurveyHighest = 4;
-inline constexpr std::size_t kHapticsQuestion = 3, kGraphicsQuestion = 4;  // indices in the list
+inline constexpr std::size_t kHapticsQuestion = 3, kGraphicsQuestion = 4;  // indices in survey_questions()
 const std::array<SurveyQuestion, 8>& survey_questions();
 
 // The printed numbers as the summary of a sample of 20.
@@ -37,8 +37,8 @@ std::vector<AnswerCounts> answers_that_print_as(const SurveyQuestion& question);
 // pairings, and the smallest two-sided p of the paired t test and of the sign test, with their effects.
 struct KindestPairing {
   std::size_t tables = 0;
-  TTest t;          // test with the smallest p
-  TestResult sign;  // test with the smallest p
+  TTest t;          // t test with the smallest p
+  TestResult sign;  // sign test with the smallest p
 };
 KindestPairing kindest_pairing(const std::vector<AnswerCounts>& a, const std::vector<AnswerCounts>& b);
 

@@ -11,8 +11,8 @@ namespace afm::study {
 
 // Counts of right answers. Pure functions; any thread.
 
-// P(at least `right` of `trials`) if each is right with `chance`: I_chance(right, trials - right + 1), the exact
-// binomial test, one-sided.
+// Probability of at least `right` of `trials` if each is right with `chance`: I_chance(right, trials - right + 1), the
+// exact binomial test, one-sided.
 double p_of_at_least(std::size_t right, std::size_t trials, double chance);
 
 // The smallest number of right answers that has a probability of at most alpha by chance; empty if even all of them are
@@ -30,7 +30,7 @@ Estimate proportion(std::size_t right, std::size_t trials);
 // The exact test of pairs that differ (sign test; McNemar 1947 for changes): twice the smaller tail at 1/2, at most 1.
 // The effect is the share of increases, with its exact interval.
 TestResult sign_test(std::size_t up, std::size_t down);
-// The same for differences, ignoring zeros.
+// The sign test of differences, ignoring zeros.
 TestResult sign_test(std::span<const double> differences);
 
 }  // namespace afm::study

@@ -24,7 +24,7 @@ struct SsqScores {
 };
 SsqScores ssq_scores(std::span<const double, 16> answers);
 
-// A session ends at a total above this, or at any answer "severe" (TouchAFM's rule, not Kennedy's).
+// Limits at which a session ends: a total above the first, or any answer "severe" (TouchAFM's rule, not Kennedy's).
 inline constexpr double kSsqStopTotal = 20.0;
 inline constexpr double kSsqSevere = 3.0;
 bool ssq_says_stop(std::span<const double, 16> answers);

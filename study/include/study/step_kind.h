@@ -11,8 +11,8 @@ namespace afm::study {
 // Types of a lesson's steps, in one table for lesson files, their data, and the study that reads them
 // (docs/adding-a-lesson-step.md).
 enum class StepKind { Text, Free, Cycle, Identify, Threshold, Draw, Question, Push, Write };
-// Answer to a counted trial. Comparison: of forces on the hand, so it is right or wrong, and needs the
-// common scale. Number: StudyTrial::value.
+// Answer to a counted trial. Comparison: judgement of forces on the hand, which is right or wrong, and needs the common
+// scale. Number: StudyTrial::value.
 enum class StepAnswer { None, Number, Comparison };
 
 // Ground on which the tip of a lesson works: the lesson's materials, the particles on one of them, or a soft sample
@@ -24,11 +24,11 @@ enum class StepBeside { Allowed, Needed, Refused };
 
 struct StepKindRow {
   StepKind kind;
-  std::string_view word;  // in lesson files and in the column trial_type
+  std::string_view word;  // spelling in lesson files and in the column trial_type
   std::string_view meaning;
   StepAnswer answer;
-  bool open_ended;  // continues until someone ends it
-  bool has_cycles;  // the tip snaps in and lets go in each trial
+  bool open_ended;  // true: continues until someone ends it
+  bool has_cycles;  // true: the tip snaps in and pulls off in each trial
   StepGround ground;
   StepBeside tapping;
 };

@@ -25,14 +25,14 @@ struct IdentifyResult {
   std::string step, condition;
   ConfusionMatrix matrix;
   Estimate accuracy;                    // share of right answers in all trials
-  double chance = kNoValue;             // 1 divided by the number of materials
-  TestResult against_chance;            // exact binomial
-  std::optional<SmallestCount> needed;  // number of right answers that is improbable by chance
+  double chance = kNoValue;             // accuracy of guessing, 1 divided by the number of materials
+  TestResult against_chance;            // exact binomial test against guessing
+  std::optional<SmallestCount> needed;  // smallest number of right answers that is improbable by guessing
   Estimate d_prime;                     // d' of an unbiased choice among the materials
   struct Material {
-    YesNo plain, corrected;  // one against all others, with unchanged and log-linear rates
+    YesNo plain, corrected;  // one material against all others, with unchanged and log-linear rates
   };
-  std::vector<Material> materials;  // in the order of the matrix
+  std::vector<Material> materials;  // results in the order of the matrix
   struct Person {
     std::string id;
     std::size_t right = 0;
@@ -47,7 +47,7 @@ struct ThresholdResult {
   struct Person {
     std::string id;
     ThresholdFit fit;
-    Estimate d_prime;  // two-interval d-prime, if all trials have one level
+    Estimate d_prime;  // d' of two intervals, if all trials have one level
   };
   std::vector<Person> people;
   Estimate weber_fraction;  // geometric mean over people with its t interval in logarithms
@@ -61,14 +61,14 @@ struct ThresholdResult {
 // A value for each person under each condition: "SUS", "right answers in blind".
 struct Measure {
   std::string key, title, unit;
-  double per_si = 1.0;  // units in one SI unit
+  double per_si = 1.0;  // displayed units per SI unit
   int decimals = 2;
-  bool logarithmic = false;                                     // compared by ratios
-  Interval scale{-kUnbounded, kUnbounded};                      // range of the values, SI
-  std::map<std::string, std::map<std::string, double>> values;  // by condition and person
+  bool logarithmic = false;                                     // true: compared by ratios
+  Interval scale{-kUnbounded, kUnbounded};                      // range of legal values, SI
+  std::map<std::string, std::map<std::string, double>> values;  // values by condition and person
 
-  Estimate mean(const std::string& condition) const;  // geometric if logarithmic; SI
-  double sd(const std::string& condition) const;      // NaN if logarithmic
+  Estimate mean(const std::string& condition) const;  // mean in SI, geometric if logarithmic
+  double sd(const std::string& condition) const;      // standard deviation; NaN if logarithmic
 };
 
 // Two conditions of a measure; paired for those who did both, otherwise for different people.
@@ -87,21 +87,21 @@ struct SsqResult {
 // A step done before and after (steps "NAME-before" and "NAME-after").
 struct LearningResult {
   std::string step;
-  Estimate before, after;  // share right, by person
-  double gain = kNoValue;  // Hake's, of the means
+  Estimate before, after;  // proportion of right answers by person
+  double gain = kNoValue;  // Hake's gain of the means
   TestResult change, single_trials;
 };
 
 struct LessonResults {
   std::string task, title;
-  std::vector<std::string> facts;  // "device: sim", one line for each difference
+  std::vector<std::string> facts;  // lines on the conditions, "device: sim", one for each difference
   std::size_t people = 0, simulated = 0, counted = 0, practice = 0, unanswered = 0;
-  std::size_t not_felt = 0;           // left out: the force was off where it belongs on, or on where it belongs off
-  std::size_t force_unknown = 0;      // counted, of a data set that does not say whether the force was on
-  std::vector<std::string> left_out;  // incomplete questionnaires
+  std::size_t not_felt = 0;           // trials left out because the force was on or off contrary to the condition
+  std::size_t force_unknown = 0;      // counted trials of data without information on the force
+  std::vector<std::string> left_out;  // questionnaires left out because they are incomplete
   struct Pushes {
     std::size_t counted = 0;
-    std::size_t with_truth = 0, with_undo = 0;  // aids
+    std::size_t with_truth = 0, with_undo = 0;  // pushes with an aid: the truth shown, a push undone
   };
   Pushes pushes;
   std::vector<IdentifyResult> identify;
@@ -113,7 +113,7 @@ struct LessonResults {
   std::size_t ssq_stops = 0;  // number of people who reached the stop rule
 };
 
-// This study's answers to a question of Table 3.
+// Answers of this study to a question of Table 3.
 struct SurveyResult {
   Summary answers;
   Interval interval;
@@ -122,12 +122,12 @@ struct SurveyResult {
 
 struct StudyResults {
   std::size_t listed = 0, people = 0;
-  std::map<std::string, std::size_t> ages;  // number of people in each given age band
+  std::map<std::string, std::size_t> ages;  // number of people in each age band
   std::vector<std::string> left_out, remarks;
-  std::vector<SurveyResult> survey;  // the paper's eight questions; empty if nobody was asked
+  std::vector<SurveyResult> survey;  // results for the paper's eight questions; empty if nobody was asked
   double survey_alpha = kNoValue, sus_alpha = kNoValue;
-  std::vector<TestResult> haptics_against_graphics;  // paired, from this study
-  std::vector<LessonResults> lessons;                // sorted by task
+  std::vector<TestResult> haptics_against_graphics;  // paired tests of this study
+  std::vector<LessonResults> lessons;                // lessons sorted by task
 };
 
 StudyResults study_results(const StudyData& data);

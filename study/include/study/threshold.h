@@ -10,7 +10,7 @@ namespace afm::study {
 
 // A trial of two intervals, one of which holds the stronger stimulus: (1 + level) times the other.
 struct ThresholdTrial {
-  double level = 0;  // w, 0 or more
+  double level = 0;  // level w, 0 or more
   bool second_stronger = false;
   bool answered_second = false;
 
@@ -25,7 +25,7 @@ inline constexpr double kLapseRate = 0.01;
 // the level at which an observer without preference is right in 75 % of the trials: d' = sqrt(2) z(0.75) = 0.954. b = 1
 // by Weber's law and signal detection theory. The bias, in units of d', is above 0 for a preference of "first".
 struct ThresholdFit {
-  Estimate weber_fraction{};  // ends are 0 or infinite if the trials do not bound them
+  Estimate weber_fraction{};  // estimate of W; its ends are 0 or infinite if the trials do not bound them
   Estimate bias{};
   std::size_t right = 0;
 };

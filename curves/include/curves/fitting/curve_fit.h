@@ -22,27 +22,27 @@ inline constexpr std::size_t kBootstraps = 200;
 
 // Options of a fit; sizes of zero: not given.
 struct FitOptions {
-  std::optional<fits::Shape> shape;  // empty: no fit is wanted
+  std::optional<fits::Shape> shape;  // shape of the indenter; empty: no fit is requested
   double radius_m = 0;
   double half_angle_rad = 0;
   double layer_m = 0;
   double poisson = 0.5;
-  std::optional<double> atomic_distance_m;  // empty: that of fits::Indenter
+  std::optional<double> atomic_distance_m;  // atomic distance; empty: default of fits::Indenter
   fits::Base base = fits::Base::Bonded;
   fits::Against against = fits::Against::Z;
   double most_force_n = std::numeric_limits<double>::infinity();
   double most_depth_m = std::numeric_limits<double>::infinity();
   bool tilt = false;
   bool white = false;
-  bool bootstrap = false;                           // adds an interval by kBootstraps fits to resampled residuals
-  std::vector<std::string> uncertainty_texts;       // "radius=5%"
-  std::vector<fits::Uncertainty> uncertainties{};   // set by prepare() from the texts
+  bool bootstrap = false;                           // true: adds an interval by kBootstraps fits to resampled residuals
+  std::vector<std::string> uncertainty_texts;       // uncertainties as typed: "radius=5%"
+  std::vector<fits::Uncertainty> uncertainties{};   // uncertainties set by prepare() from the texts
   std::shared_ptr<const fits::LayerTable> table{};  // table for an exact layer, set by prepare()
 };
 
 // A number that a user gives to a fit.
 struct FitNumber {
-  std::string_view name;  // option on the command line without dashes
+  std::string_view name;  // option on the command line, without dashes
   QuantityDomain domain;
   std::string_view help;
   void (*set)(FitOptions& options, double si);

@@ -23,18 +23,18 @@ struct FitOptions;
 // A fitted force map as one sample that is felt whole: modulus and adhesion of the usable fits, those of all other
 // pixels filled from the nearest of these, and the heights. Grids of square cells; a larger map is thinned.
 struct FeltMap {
-  physics::Law law = physics::Law::Dmt;  // Hertz: the tip hardly sticks
+  physics::Law law = physics::Law::Dmt;  // law of force; Hertz: the tip hardly sticks
   double poisson = 0.5;                  // Poisson's ratio of the fits
   scene::SharedLawMap laws;
-  scene::Topography heights;                    // 0 at the middle
+  scene::Topography heights;                    // heights of the sample, 0 at the middle
   MapGrid grid;                                 // grid of the pixels
   std::vector<bool> is_filled;                  // pixels without a usable fit, in the order of CurveMap::fits()
-  std::size_t filled = 0;                       // number of such pixels
-  std::shared_ptr<const ForceVolume> volume{};  // its curves, to be seen; null: not kept
+  std::size_t filled = 0;                       // number of pixels without a usable fit
+  std::shared_ptr<const ForceVolume> volume{};  // curves of the map, for display; null: not kept
 };
 
 inline constexpr std::size_t kLeastFits = 4;
-inline constexpr double kLeastShare = 0.25;  // share of the pixels
+inline constexpr double kLeastShare = 0.25;  // smallest share of the pixels with a usable fit
 
 // Fails with WrongUsage, and the reason, if no law of force has the numbers of such a fit, or if fewer than kLeastFits
 // or kLeastShare of the pixels have a usable one. `options` are those of the map's fits.
@@ -48,7 +48,7 @@ core::Result<SampleModel> make_sample_model(const SampleModel& pixel, const FitO
 // Pixel of the map below a tip at this place of the sample, metres as felt; empty beside the map.
 std::optional<MapPlace> pixel_below(const SampleModel& model, const std::array<double, 2>& xy_m);
 
-// "E 1.2 kPa to 9.8 kPa, W 0.1 mJ/m2 to 0.3 mJ/m2; 12 of 256 pixels are filled from their neighbours", for the log.
+// Text for a log: "E 1.2 kPa to 9.8 kPa, W 0.1 mJ/m2 to 0.3 mJ/m2; 12 of 256 pixels are filled from their neighbours".
 std::string felt_text(const FeltMap& map);
 
 }  // namespace afm::curves

@@ -23,7 +23,7 @@ struct CurveFigures {
 
 // Result for one curve: a fit with its spring constant, or the reason why there is none.
 struct FittedCurve {
-  std::optional<fits::ElasticFit> fit;  // without its model
+  std::optional<fits::ElasticFit> fit;  // fit without its model; empty: none
   double spring_n_per_m = 0;
   std::string why;
   CurveFigures figures;

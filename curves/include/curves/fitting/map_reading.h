@@ -13,7 +13,7 @@ namespace afm::curves {
 // session. Sizes that no such fit has are left out.
 std::string text_of(const MapReading& reading);
 
-// The reading again, with the same bits. BadInputFile, without the name of a file, for a text that is none, and for a
+// The inverse of text_of(), with the same bits. BadInputFile, without the name of a file, for a malformed text and a
 // number outside the range of its option.
 core::Result<MapReading> map_reading_of(std::string_view text);
 

@@ -21,7 +21,7 @@ struct FluidRow {
   std::string_view name;
   physics::Fluid fluid;
 };
-// At 25 degrees Celsius: air as in Sader's published program, water by IAPWS 2008.
+// Fluids at 25 degrees Celsius: air as in Sader's published program, water by IAPWS 2008.
 inline constexpr std::array kFluids{FluidRow{"air", {physics::Density(1.18), physics::Viscosity(1.86e-5)}},
                                     FluidRow{"water", {physics::Density(997.0), physics::Viscosity(8.90e-4)}}};
 
@@ -34,14 +34,14 @@ struct InputUncertainty {
 
 struct LeverOptions {
   LeverInputs inputs;
-  std::string thermal;               // file of a spectrum, or the name of `spectrum`; empty: none
-  std::optional<Spectrum> spectrum;  // instead of reading that file
+  std::string thermal;               // file of a spectrum, or the name of `spectrum`; empty: no spectrum
+  std::optional<Spectrum> spectrum;  // spectrum that is used instead of a file
   SpectrumReading reading;
   double low_hz = 0.0, high_hz = 1e12;
   std::optional<double> averages;
   int mode = 1;
   bool sader = false;
-  std::optional<physics::Fluid> fluid;  // fluid around a lever of Sader's method; empty: air
+  std::optional<physics::Fluid> fluid;  // fluid of Sader's method; empty: air
   std::string curve;                    // file whose contact slope is the sensitivity; empty: none
   CurveReading curve_reading;
   std::optional<double> bandwidth_hz;
@@ -57,26 +57,26 @@ struct LeverOptions {
 struct CalibratedConstant {
   double k_n_per_m = 0;
   double relative_uncertainty = 0;
-  std::vector<double> shares{};  // one for each uncertainty of the options
+  std::vector<double> shares{};  // relative uncertainty of k from each uncertainty of the options
 };
 
 struct ThermalConstant {
   CalibratedConstant corrected;
-  fits::Interval interval_n_per_m;  // 95 %, from the statistics only
-  double uncorrected_n_per_m = 0;   // k_B T/(sensitivity^2 area)
-  double floor_bias = 0;            // relative error of k, had the floor been taken for the lever's
-  double force_by_sensitivity = 0;  // relative uncertainty of forces k s V by that of only s, the sensitivity
+  fits::Interval interval_n_per_m;  // 95 % interval, from the statistics only
+  double uncorrected_n_per_m = 0;   // k_B T/(sensitivity^2 area), without the corrections
+  double floor_bias = 0;            // relative error of k if the floor were taken for the lever's noise
+  double force_by_sensitivity = 0;  // uncertainty of a force k s V over that of the sensitivity s, both relative
 };
 
 struct SensitivityFound {
   double measured_m_per_v = 0;
-  std::optional<double> corrected_m_per_v{};  // value of a rigid contact, if it was not
-  bool without_contact = false;               // from the spectrum and a spring constant
+  std::optional<double> corrected_m_per_v{};  // sensitivity on a rigid contact; empty: the contact was rigid
+  bool without_contact = false;               // true: from the spectrum and a spring constant
 };
 
 struct LeverCalibration {
-  LeverInputs inputs;                // completed by defaults, spectrum and curve
-  std::optional<Spectrum> spectrum;  // its rows within the range
+  LeverInputs inputs;                // inputs, completed by defaults, spectrum and curve
+  std::optional<Spectrum> spectrum;  // rows of the spectrum within the range
   std::optional<fits::ThermalFit> fit;
   std::optional<ThermalConstant> thermal;
   std::optional<CalibratedConstant> sader, gci;

@@ -34,7 +34,7 @@ enum class LeverInput : std::size_t {
   Area,
 };
 
-// In SI; empty: not given.
+// Values in SI; empty: not given.
 class LeverInputs {
  public:
   std::optional<double>& operator[](LeverInput input) { return values_[static_cast<std::size_t>(input)]; }
@@ -61,8 +61,8 @@ struct LeverInputRow {
   std::string_view name;  // name of the option without its dashes, also in --uncertainty
   physics::Units units;
   QuantityRange<double> range;
-  std::string_view of;    // option that it needs, or empty
-  std::string_view help;  // empty: no option, the spectrum's
+  std::string_view of;    // option that the input needs, or empty
+  std::string_view help;  // description for help; empty: no option, because the spectrum determines the value
 };
 
 inline const std::array kLeverInputs{
@@ -138,7 +138,7 @@ inline const std::array kLeverInputs{
     LeverInputRow{LeverInput::Area, "area", physics::kPlainNumber, {}, "", ""}};
 static_assert(kLeverInputs.size() == core::kEnumerators<LeverInput>.size());
 
-// The table has the order of the enum.
+// Row of an input; the table has the order of the enum.
 inline const LeverInputRow& row_of(LeverInput input) { return kLeverInputs[static_cast<std::size_t>(input)]; }
 
 }  // namespace afm::curves

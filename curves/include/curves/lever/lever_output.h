@@ -9,8 +9,8 @@
 
 namespace afm::curves {
 
-// Lines with units; the same in SI, null for values that were not computed; the spectrum with its model on logarithmic
-// axes.
+// Results as lines with units; as JSON in SI, null for values that were not computed; the spectrum with its model on
+// logarithmic axes.
 std::string lever_text(const LeverOptions& options, const LeverCalibration& result);
 nlohmann::ordered_json lever_json(const LeverOptions& options, const LeverCalibration& result);
 SvgPlot lever_plot(const LeverCalibration& result);

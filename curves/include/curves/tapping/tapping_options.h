@@ -7,12 +7,12 @@ namespace afm::curves {
 
 // Numbers of a vibrating lever, as typed; empty: not given.
 struct TappingOptions {
-  std::string free_amplitude{};  // tapping: needed
-  std::string amplitude{};       // fm: needed
-  std::string drive{};           // tapping; empty: at the resonance
+  std::string free_amplitude{};  // free amplitude, required in tapping mode
+  std::string amplitude{};       // constant amplitude, required in fm mode
+  std::string drive{};           // drive frequency in tapping mode; empty: the resonance
   std::string viscosity{};       // viscosity of the contact; empty: none
-  std::string method{};          // tapping: averaged or direct; empty: by the quality factor
-  std::string at{};              // a single height instead of a path
+  std::string method{};          // averaged or direct, in tapping mode; empty: by the quality factor
+  std::string at{};              // single height in place of a path
 };
 
 }  // namespace afm::curves

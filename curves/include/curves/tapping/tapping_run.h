@@ -22,33 +22,33 @@ namespace afm::curves {
 struct DrivenSample {
   std::shared_ptr<const physics::TapSurface> surface;
   physics::DrivenLever lever;
-  physics::Viscosity viscosity;  // viscosity under the tip
+  physics::Viscosity viscosity;  // viscosity of the contact
 };
 
-// For the setup of driven_setup(). WrongUsage, naming the option, for a value that is no number or impossible.
+// Lever and surface for the setup of driven_setup(). WrongUsage, naming the option, for a value that it cannot have.
 core::Result<DrivenSample> driven_sample(const ContactSetup& setup, const TappingOptions& options);
 
 // One resting swing at a height.
 struct TapStateRow {
-  std::string start;  // direct integration: "free swing" or "rest"; averaged: empty
+  std::string start;  // start of a direct integration, "free swing" or "rest"; empty if averaged
   physics::RestingTap tap;
   physics::Energy cleveland;
-  std::optional<physics::DirectSwing> swing;  // direct integration; averaged: of a state that only this finds
+  std::optional<physics::DirectSwing> swing;  // direct integration; averaged: of a state without averages
 };
 
 // A tapping curve, or the states at one height, with all inputs.
 struct TappingRun {
   ContactSetup setup;
-  std::string model;  // "dmt"
+  std::string model;  // name of the law, "dmt"
   std::optional<physics::LawChoice> place;
   physics::DrivenLever lever;
   physics::Viscosity viscosity;
   physics::TapMethod method = physics::TapMethod::Averaged;
-  std::optional<physics::Length> averages_lost_at;  // height for which direct integration was taken in their place
+  std::optional<physics::Length> averages_lost_at;  // height integrated directly because averages failed
   physics::TapPath path;
   physics::TappingCurve curve;
   std::optional<physics::Length> at;
-  std::vector<TapStateRow> states;  // with `at`
+  std::vector<TapStateRow> states;  // states at the height `at`
 };
 
 // Heights between which a tapping curve goes unless others are given, for a free amplitude.
@@ -65,7 +65,7 @@ struct FrequencyShiftRun {
   physics::Length amplitude;
   physics::Viscosity viscosity;
   physics::SweepPlan plan;
-  physics::FrequencyShiftCurve curve;  // one point if `at` is given
+  physics::FrequencyShiftCurve curve;  // curve, or one point if `at` is given
   std::optional<physics::Length> at;
 };
 

@@ -18,10 +18,10 @@ namespace afm::curves {
 
 // One point of a map of regimes.
 struct TapSweepRow {
-  std::array<double, 2> at{};  // SI, by axis
-  std::string regime;          // a word of regimes_of()
-  std::vector<double> values;  // SI and degrees, in the order of columns_of(); NaN: there is none
-  std::string refusal;         // reason why these values have no such swing; all others are then unknown
+  std::array<double, 2> at{};  // value on each axis, SI
+  std::string regime;          // word of regimes_of()
+  std::vector<double> values;  // values in SI and degrees, in the order of columns_of(); NaN: no such value
+  std::string refusal;         // reason why these values have no such swing; all other members are then unknown
 };
 
 // A lever that taps, averaged and at rest, over one or two parameters: the contact's, `free-amplitude`, and `z`. With
@@ -31,7 +31,7 @@ struct TappingSweep {
   TappingChoice choice;
   std::vector<SweepAxis> axes;
   bool at_heights = false;
-  std::vector<TapSweepRow> rows;  // in the grid's order, the last axis running fastest
+  std::vector<TapSweepRow> rows;  // rows in the grid's order, the last axis running fastest
 };
 
 // First value of a text "free-amplitude=from:to:count"; empty for any other text.

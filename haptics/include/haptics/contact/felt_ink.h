@@ -24,13 +24,13 @@ class PublishedTiles;
 // - The hand feels the lever, as soft as a hand can bear, which presses on a hard, flat sample or is held by the liquid
 //   between tip and sample: -k z, from the touch at z = 0 up to the height where the lever pulls as much as the liquid,
 //   4 pi R gamma. There the tip comes off, and what the lever stored is lost. Nothing acts sideways. So no contact
-//   gives the hand more than it gave.
+//   gives the hand more energy than the hand put in.
 // - Ink flows as long as the tip touches, however hard. In a tick the tip looks at kMostLooks squares at most; ink for
 //   which it finds none flows a little later.
 class FeltInk final : public FeltMarks {
  public:
   static constexpr std::size_t kMostLooks = 2048;
-  static constexpr double kMeanS = 0.1;  // time over which the published speed is a mean
+  static constexpr double kMeanS = 0.1;  // averaging time of the published speed
 
   // `particles` is valid (scene::validate) and has ink, `scale` is its particle_scale().
   FeltInk(const scene::SharedParticles& particles, const ParticleScale& scale);
@@ -67,15 +67,15 @@ class FeltInk final : public FeltMarks {
 
   ParticleScale scale_;
   double thickness_m_, reach_m_;
-  double spring_n_per_m_;  // as felt
+  double spring_n_per_m_;  // normal stiffness of the softened lever
   double pull_n_;          // pull of the liquid at which the tip comes off
   physics::InkedSurface surface_;
   std::unique_ptr<PublishedTiles> tiles_;
   std::unique_ptr<MarkHistory> strokes_;
   Tip tip_is_ = Tip::Waits;
-  glm::dvec3 hand_m_{0.0};  // place of the unbent lever where the hand was last
-  double bent_j_ = 0;       // energy in the lever
-  double lost_j_ = 0;       // since the newest touch
+  glm::dvec3 hand_m_{0.0};  // last position of the unbent lever below the hand
+  double bent_j_ = 0;       // energy stored in the bent lever
+  double lost_j_ = 0;       // energy lost since the newest touch
   double flowed_s_ = 0, speed_m_per_s_ = 0;
   std::uint64_t accounts_ = 0;
 };

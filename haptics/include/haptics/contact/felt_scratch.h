@@ -28,13 +28,13 @@ class PublishedTiles;
 //   kMostWay until it is free: a hand that is too fast scratches less, and then nothing. That only takes energy from
 //   the lever. It sinks again with the time kSinkS, and the energy that this gives to the lever comes from a tank which
 //   holds kTankShare of what the hand has lost to the sample in this contact, kMostTankJ at most. If the tank has too
-//   little, the lever stays raised. So no contact gives the hand more than it gave.
+//   little, the lever stays raised. So no contact gives the hand more energy than the hand put in.
 class FeltScratch final : public FeltMarks {
  public:
   static constexpr double kFullWay = 0.24, kMostWay = 0.36;  // squares per tick; 0.6 and 0.9 nm for a tip of 20 nm
   static constexpr double kSinkS = 0.05;
   static constexpr double kTankShare = 0.5;
-  static constexpr double kMostTankJ = 0.03;  // as EnergyTank::kFullJ
+  static constexpr double kMostTankJ = 0.03;  // largest energy in the tank, equal to EnergyTank::kFullJ
 
   // `particles` is valid (scene::validate) and has a soft sample, `scale` is its particle_scale(). `held_j` in the tank
   // at the start of each contact is for tests alone.
@@ -58,7 +58,7 @@ class FeltScratch final : public FeltMarks {
   std::optional<std::uint32_t> next_tile() noexcept override;
   std::span<const scene::MarkTile> tiles() const noexcept override;
 
-  double held_j() const noexcept { return held_j_; }  // in the tank
+  double held_j() const noexcept { return held_j_; }  // energy in the tank
   const physics::ScratchTick& last() const noexcept { return tip_.last(); }
 
  private:
@@ -74,19 +74,19 @@ class FeltScratch final : public FeltMarks {
   ParticleScale scale_;
   physics::ScratchingTip tip_;
   std::unique_ptr<PublishedTiles> tiles_;
-  std::vector<double> highest_m_;  // tops of the tiles
+  std::vector<double> highest_m_;  // highest height of each tile
   std::unique_ptr<MarkHistory> strokes_;
   double stiffness_n_per_m_ = 0;
   double fastest_hand_m_per_s_ = 0;
   Tip tip_is_ = Tip::Waits;
-  glm::dvec3 hand_m_{0.0};  // place of the unbent lever where the hand was last
+  glm::dvec3 hand_m_{0.0};  // last position of the unbent lever below the hand
   glm::dvec3 push_n_{0.0};  // force on the lever
   double rise_m_ = 0;
-  double start_held_j_;  // at the start of each contact
+  double start_held_j_;  // energy in the tank at the start of each contact
   double held_j_;
   double stored_j_ = 0;
   std::uint64_t accounts_ = 0;
-  bool marked_ = false, stopped_ = false, raised_ = false;  // in this contact; each is an event once
+  bool marked_ = false, stopped_ = false, raised_ = false;  // events already reported in this contact
 };
 
 }  // namespace afm::haptics

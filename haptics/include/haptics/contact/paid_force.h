@@ -15,9 +15,9 @@ namespace afm::haptics {
 // May be used in a tick of the servo.
 class PaidForce {
  public:
-  static constexpr double kReserveJ = 0.01;  // more than 3 N times 3 m/s times 1 ms
+  static constexpr double kReserveJ = 0.01;  // energy reserve, more than 3 N times 3 m/s times 1 ms
 
-  // Off the sample, and without force: what the hand put in is forgotten.
+  // Call off the sample and without force: forgets the energy that the hand put in.
   void forget() noexcept {
     lent_j_ = paid_j_ = force_n_ = 0.0;
     tank_.fill();
@@ -34,8 +34,8 @@ class PaidForce {
     return force_n_;
   }
 
-  double lent_j() const noexcept { return lent_j_; }  // work of the hand that it has not got back
-  double paid_j() const noexcept { return paid_j_; }  // by the tank, in the newest step
+  double lent_j() const noexcept { return lent_j_; }  // work of the hand that has not been returned to it
+  double paid_j() const noexcept { return paid_j_; }  // energy paid by the tank in the newest step
 
  private:
   EnergyTank tank_;

@@ -22,8 +22,8 @@ namespace afm::haptics {
 // The constructor allocates; everything else may be called in a tick of the servo, by its thread.
 class SweepingScan {
  public:
-  static constexpr double kLineS = 0.1;       // time of a line
-  static constexpr double kTraceShare = 0.8;  // share of it in which the tip is on the line
+  static constexpr double kLineS = 0.1;       // time of a line, there and back
+  static constexpr double kTraceShare = 0.8;  // share of a line's time in which the tip is on the sample
 
   // `particles` are valid (scene::validate).
   explicit SweepingScan(const scene::SharedParticles& particles);
@@ -56,7 +56,7 @@ class SweepingScan {
   std::vector<double> reach_m_;         // distance at which the tip touches each particle
   std::vector<std::uint32_t> climbed_;  // particles that this look climbs
   scene::ScanLead look_;
-  double time_s_ = 0;  // since the beginning of the look
+  double time_s_ = 0;  // time since the beginning of the look
   bool begun_ = false;
   bool down_ = false;  // true: the tip is on the sample
 };

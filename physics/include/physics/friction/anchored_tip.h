@@ -29,13 +29,13 @@ class AnchoredTip {
   // energy. A lower yield force shortens L.
   Energy move_to(const Sideways<Length>& support, Force yield) noexcept;
 
-  Sideways<Force> force() const noexcept { return {Force(-k_ * x_), Force(-k_ * y_)}; }  // on the support
+  Sideways<Force> force() const noexcept { return {Force(-k_ * x_), Force(-k_ * y_)}; }  // force on the support
   Energy stored() const noexcept { return Energy(0.5 * k_ * (x_ * x_ + y_ * y_)); }
 
  private:
   double k_;
   Sideways<Length> support_{};
-  double x_ = 0.0, y_ = 0.0;  // L
+  double x_ = 0.0, y_ = 0.0;  // L, metres
 };
 
 }  // namespace afm::physics

@@ -19,8 +19,8 @@ struct ContactParameters;
 // The values are part of session files and shared blocks: a new law gets the next one (docs/adding-a-friction-law.md).
 enum class FrictionLaw : std::uint32_t {
   None = 0,
-  Amontons = 1,     // mu N
-  ContactArea = 2,  // tau A, A the contact area of the force law (Bowden & Tabor)
+  Amontons = 1,     // coefficient of friction times load: mu N
+  ContactArea = 2,  // shear strength times the force law's contact area, tau A (Bowden & Tabor)
   Lattice = 3,      // Prandtl-Tomlinson: a spring that pulls the tip over the sample's atoms
 };
 
@@ -41,9 +41,9 @@ constexpr const FrictionLawText& text_of(FrictionLaw law) { return kFrictionLaws
 
 // Arrangement of the lattice's wells. The values are part of session files and shared blocks.
 enum class LatticeKind : std::uint32_t {
-  Rows = 0,       // one period along x, nothing along y
-  Square = 1,     // one period along x and along y: the ions of one kind of NaCl(100), turned by 45 degrees
-  Hexagonal = 2,  // mica, graphite, gold(111)
+  Rows = 0,       // one period along x, constant along y
+  Square = 1,     // equal periods along x and y: the ions of one kind of NaCl(100), turned by 45 degrees
+  Hexagonal = 2,  // triangular lattice of wells: mica, graphite, gold(111)
 };
 
 struct LatticeKindText {
@@ -60,11 +60,11 @@ static_assert(has_row_for_each(kLatticeKinds, &LatticeKindText::kind));
 struct FrictionParameters {
   FrictionLaw law = FrictionLaw::None;
   LatticeKind lattice = LatticeKind::Hexagonal;
-  double coefficient = 0.0;     // mu
-  Pressure shear_strength;      // tau
-  Length period;                // a, from well to well along x
-  Length corrugation;           // U of the lattice's potential divided by N (physics/friction/lattice_tip.h)
-  Stiffness lateral_stiffness;  // lever, tip and contact in series
+  double coefficient = 0.0;     // mu, coefficient of friction
+  Pressure shear_strength;      // tau, shear strength of the contact
+  Length period;                // a, distance from well to well along x
+  Length corrugation;           // U/N, depth of the lattice's potential per load (physics/friction/lattice_tip.h)
+  Stiffness lateral_stiffness;  // stiffness of lever, tip and contact in series
 };
 
 // Upper and lower limits of accepted values.

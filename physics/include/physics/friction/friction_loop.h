@@ -29,10 +29,10 @@ std::vector<LateralPoint> along_main_line(std::span<const SidewaysPoint> points)
 
 // Results of a friction loop. Forces and positions as in LateralPoint.
 struct FrictionLoop {
-  Force half_width;   // friction: half the difference of the forward and the backward stroke's mean
-  Force offset;       // half their sum: independent of the direction, from a slope or crosstalk
+  Force half_width;   // friction force: half the difference of the forward and the backward stroke's mean
+  Force offset;       // half the sum of both strokes' means: independent of the direction, from a slope or crosstalk
   Stiffness slope;    // dF/dx after a turn, while the tip sticks
-  Energy dissipated;  // energy per cycle, between its turning points
+  Energy dissipated;  // energy dissipated per cycle, between its turning points
   std::size_t begin = 0, turn = 0, end = 0;  // indices in the run where the cycle begins, turns and ends
 };
 

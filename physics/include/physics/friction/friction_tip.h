@@ -15,7 +15,7 @@ namespace afm::physics {
 
 // Inputs for making a tip: one sample and its friction. `adhesion` is the magnitude of the pull-off force.
 struct FrictionContact {
-  const FrictionParameters& friction;  // validated
+  const FrictionParameters& friction;  // validated parameters of the friction
   Law law;
   const ContactParameters& contact;
   Force adhesion;
@@ -51,7 +51,7 @@ class SlidingTip {
   AnchoredTip tip_;
 };
 
-// mu N
+// Yield force mu N.
 class AmontonsYield {
  public:
   static constexpr FrictionLaw kLaw = FrictionLaw::Amontons;
@@ -63,7 +63,7 @@ class AmontonsYield {
   double coefficient_;
 };
 
-// tau A. Throws for a force law without a contact area.
+// Yield force tau A. Throws for a force law without a contact area.
 class ContactAreaYield {
  public:
   static constexpr FrictionLaw kLaw = FrictionLaw::ContactArea;
@@ -73,8 +73,8 @@ class ContactAreaYield {
 
  private:
   Pressure shear_strength_;
-  std::vector<double> areas_m2_;  // at equal steps of the square root of the load
-  double root_step_ = 1.0;        // sqrt(N)
+  std::vector<double> areas_m2_;  // contact areas at equal steps of the square root of the load
+  double root_step_ = 1.0;        // step of the square root of the load, sqrt(N)
 };
 
 // A tip in the wells of a lattice, whose depth is proportional to the load.

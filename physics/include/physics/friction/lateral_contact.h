@@ -15,19 +15,19 @@ class LateralContact {
   // with a force law without contact area.
   LateralContact(const FrictionParameters& friction, Law law, const ContactParameters& contact, Force adhesion);
 
-  using Step = LatticeTip::Step;  // only a lattice has slips
+  using Step = LatticeTip::Step;  // result of a step; slips occur only on a lattice
 
   Step touch_down(const Sideways<Length>& support, Force load) noexcept;
-  Step slide_to(const Sideways<Length>& support, Force load) noexcept;  // only while touching
+  Step slide_to(const Sideways<Length>& support, Force load) noexcept;  // moves a touching tip
   void lift() noexcept { touching_ = false; }
   bool touching() const noexcept { return touching_; }
 
-  // All zero while not touching.
-  Sideways<Force> force() const noexcept;  // on the support
-  Energy stored() const noexcept;          // energy in spring and lattice
-  Length lift_per_load() const noexcept;   // d stored/dN at a fixed support: paid by a rising load
+  // All values are zero while not touching.
+  Sideways<Force> force() const noexcept;  // force on the support
+  Energy stored() const noexcept;          // energy stored in spring and lattice
+  Length lift_per_load() const noexcept;   // d stored/dN at a fixed support: energy supplied by a rising load
 
-  Stiffness stiffness() const noexcept { return stiffness_; }  // stiffness of its stiffest spring
+  Stiffness stiffness() const noexcept { return stiffness_; }  // stiffness of the tip's stiffest spring
 
  private:
   Stiffness stiffness_;

@@ -21,9 +21,9 @@ class LatticeLandscape {
 
   struct Place {
     double height = 0.0;
-    double slope_x = 0.0, slope_y = 0.0;                 // 1/m
-    double bend_xx = 0.0, bend_xy = 0.0, bend_yy = 0.0;  // 1/m^2
-    std::array<double, 4> third{};                       // xxx, xxy, xyy, yyy, 1/m^3
+    double slope_x = 0.0, slope_y = 0.0;                 // gradient of the height, 1/m
+    double bend_xx = 0.0, bend_xy = 0.0, bend_yy = 0.0;  // second derivatives of the height, 1/m^2
+    std::array<double, 4> third{};                       // third derivatives xxx, xxy, xyy, yyy, 1/m^3
   };
   Place at(double x_m, double y_m) const noexcept;
 
@@ -33,7 +33,7 @@ class LatticeLandscape {
 
  private:
   struct Wave {
-    double x = 0.0, y = 0.0;  // g, 1/m
+    double x = 0.0, y = 0.0;  // wave vector g, 1/m
   };
   double period_m_;
   std::array<Wave, 3> waves_{};
@@ -42,12 +42,12 @@ class LatticeLandscape {
 
 // A jump of the tip from one well to another.
 struct LatticeSlip {
-  double fraction = 0.0;         // share of the step's path, in [0, 1]
+  double fraction = 0.0;         // fraction of the step's path at which the tip slips, in [0, 1]
   Sideways<Length> support;      // position of the support
   Sideways<Length> way;          // displacement of the tip
-  Sideways<Force> force_before;  // on the support
+  Sideways<Force> force_before;  // force on the support
   Sideways<Force> force_after;
-  Energy lost;  // positive
+  Energy lost;  // dissipated energy, positive
 };
 
 // The tip of Prandtl and Tomlinson on a lattice, V = U v(x) + (k/2) |x - X|^2. It stays in its well as long as there is
@@ -63,7 +63,7 @@ struct LatticeSlip {
 // thread; does not allocate or throw.
 class LatticeTip {
  public:
-  static constexpr double kLongestPath = 3.0;  // in periods
+  static constexpr double kLongestPath = 3.0;  // longest path of a step, in periods
   static constexpr std::size_t kMostSlips = 6;
 
   LatticeTip(LatticeKind kind, Length period, Stiffness spring) noexcept;
@@ -72,8 +72,8 @@ class LatticeTip {
   struct Step {
     std::array<LatticeSlip, kMostSlips> slips{};
     std::uint32_t slip_count = 0;
-    Energy lost;   // by slips and by leaving an unstable position
-    Energy given;  // at or above zero
+    Energy lost;   // energy lost by slips and by leaving an unstable position
+    Energy given;  // energy that no hand supplied, at or above zero
     std::span<const LatticeSlip> slipped() const noexcept { return std::span(slips).first(slip_count); }
   };
 
@@ -83,9 +83,9 @@ class LatticeTip {
   // Moves to `support`, with U changing to `scale` along the way.
   Step move_to(const Sideways<Length>& support, Energy scale) noexcept;
 
-  Sideways<Force> force() const noexcept;  // on the support: k (x - X)
+  Sideways<Force> force() const noexcept;  // force on the support, k (x - X)
   Sideways<Length> tip() const noexcept { return {Length(x_), Length(y_)}; }
-  Energy stored() const noexcept;  // V
+  Energy stored() const noexcept;  // potential energy V
   double relief() const noexcept;  // v: dV/dU at a fixed support
 
  private:
@@ -93,11 +93,11 @@ class LatticeTip {
   struct Control {
     double x = 0.0, y = 0.0, scale = 0.0;
   };
-  // x and V's second derivatives at x.
+  // Position x of a tip at rest and the second derivatives of V there.
   struct Rest {
     double x = 0.0, y = 0.0;
     double xx = 0.0, xy = 0.0, yy = 0.0;
-    double least() const noexcept;  // least curvature
+    double least() const noexcept;  // smaller eigenvalue of the second derivatives
   };
 
   Control on_path(const Control& from, const Control& change, double t) const noexcept;

@@ -44,7 +44,7 @@ class ForceSwings {
  private:
   double size_n_ = 1.0, period_ticks_ = 1.0;
   double lowest_n_ = 0.0, highest_n_ = 0.0;
-  double ticks_ = 0.0;  // since the lowest force
+  double ticks_ = 0.0;  // ticks since the lowest force
   bool risen_ = false;
 };
 

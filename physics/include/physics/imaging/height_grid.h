@@ -13,7 +13,7 @@ struct HeightGrid {
   double x_first_m = 0;  // position of column 0
   double y_first_m = 0;  // position of row 0
   double column_step_m = 1;
-  double row_step_m = 1;  // negative if row 0 is the top one, as in an image
+  double row_step_m = 1;  // distance of the rows; negative if row 0 is the top one, as in an image
   std::vector<double> height_m;
 
   double& at(std::size_t column, std::size_t row) { return height_m[row * columns + column]; }

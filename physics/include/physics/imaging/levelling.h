@@ -42,9 +42,9 @@ struct HeightStatistics {
 HeightStatistics height_statistics(std::span<const double> heights);
 
 struct LevelledHeights {
-  std::vector<double> heights;  // all finite; row 0 at the top, as in ScanImage
-  double slope_x = 0;           // slope of the subtracted plane: per column, to the right
-  double slope_y = 0;           // per row, upwards
+  std::vector<double> heights;  // finite heights; row 0 at the top, as in ScanImage
+  double slope_x = 0;           // slope of the subtracted plane along a row: per column, to the right
+  double slope_y = 0;           // slope of the subtracted plane across rows: per row, upwards
   std::size_t filled = 0;       // number of points without a measurement
 };
 

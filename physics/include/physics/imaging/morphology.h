@@ -26,7 +26,7 @@ namespace afm::physics {
 HeightGrid dilate(const HeightGrid& surface, const TipGrid& tip);
 HeightGrid erode(const HeightGrid& image, const TipGrid& tip);
 
-// The same by a paraboloid of that radius and of unlimited size, in two passes along lines, each by the envelope of
+// Dilation and erosion by a paraboloid of unlimited size, in two passes along lines, each by the envelope of
 // parabolas (Felzenszwalb & Huttenlocher, Theory Comput. 8, 415 (2012)): O(points) for any radius.
 void dilate_by_paraboloid(HeightGrid& surface, Length radius);
 void erode_by_paraboloid(HeightGrid& image, Length radius);

@@ -21,7 +21,7 @@ class Rim {
   // edge, which fades, it is nowhere steeper than the sample.
   static constexpr double kSlopeShare = 0.14;
 
-  // No rim: a sample without an end.
+  // A sample without an end: no rim.
   Rim() = default;
 
   // `edge_m`: heights of the edge. The transition begins at `half_x_m` and `half_y_m`; it is wide enough for `slope`,
@@ -31,7 +31,7 @@ class Rim {
   // Share of the edge's height above the level plane, and its derivatives; 1 inside.
   struct Share {
     double value = 1.0;
-    double slope_x = 0.0, slope_y = 0.0;  // 1/m
+    double slope_x = 0.0, slope_y = 0.0;  // gradient of the share, 1/m
   };
   Share share_at(double x_m, double y_m) const noexcept {
     const Fade x = fade(x_m, half_x_m_), y = fade(y_m, half_y_m_);

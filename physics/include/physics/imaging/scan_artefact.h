@@ -25,7 +25,7 @@ enum class ScanArtefact {
   StateFlips,   // tapping: the swing changes between its two states, which have different heights at one amplitude
   Saturation,   // tapping: in front of a step up the swing stops, and the image is a slope: too fast
   Overload,     // force above three times the setpoint in front of a step up
-  DoubleTip,    // a second apex causes ghosts
+  DoubleTip,    // second apex, which causes ghosts
   Drift,        // the sample moves during the scan: the image is sheared or stretched
   Noise,        // detector noise as large as the relief
   Blur,         // the loop is too slow: the image is flatter than the sample, and trace and retrace differ
@@ -59,17 +59,17 @@ std::string_view name_of(ScanArtefact artefact);
 struct ScanEvidence {
   double off_surface = 0;      // largest share of a line's time without contact
   double on_second_apex = 0;   // largest share of a line's time on the second apex
-  double ringing = 0;          // largest share of a line's time in which the error rings
-  double highest_force_n = 0;  // force of the lever; tapping: loss of amplitude, metres
-  double state_changes = 0;    // tapping: largest number of changes of state in a line's two passes
+  double ringing = 0;          // largest share of a line's time in which the loop oscillates
+  double highest_force_n = 0;  // highest force of the lever; in tapping mode largest loss of amplitude, metres
+  double state_changes = 0;    // largest number of changes of state in a line's two passes (tapping mode)
   double relief_m = 0;         // range of the measured heights
   double noise_m = 0;          // largest noise_of_lines_m() of two neighbouring lines
   double apart_m = 0;          // largest mean difference of a line's trace and retrace, a magnitude
-  double time_s = 0;           // since the start of the scan, in which drift adds up
+  double time_s = 0;           // time since the start of the scan, during which drift adds up
   double bluntness = 1;        // ratio of the tip's radius to that of a sharper one; 1: no other tip is known
 };
 
-// Trace minus retrace, by column. Not a number where a pass has no height.
+// Trace minus retrace, by column. NaN where a pass has no height.
 std::vector<double> difference_of_passes(std::span<const double> trace_m, std::span<const double> retrace_m);
 
 // Standard deviation of the noise in the heights, from the differences of the passes of two neighbouring lines: a
@@ -100,7 +100,7 @@ class NewestLines {
  private:
   double free_phase_deg_;
   std::array<ScanEvidence, kJudgedLines> newest_{};
-  std::size_t next_ = 0;          // place of the next line in newest_
+  std::size_t next_ = 0;          // place in newest_ of the next line
   std::vector<double> passes_m_;  // difference of the newest line's passes
   double time_s_ = 0;
   double low_m_ = HUGE_VAL, high_m_ = -HUGE_VAL;
@@ -110,8 +110,8 @@ class NewestLines {
 struct ScanConditions {
   const ScanSettings& settings;
   const ScanArea& area;
-  Frequency largest_integral_gain;           // ScanLoop::largest_integral_gain()
-  const TappingDetector* tapping = nullptr;  // null: contact mode
+  Frequency largest_integral_gain;           // limit of stability, ScanLoop::largest_integral_gain()
+  const TappingDetector* tapping = nullptr;  // detector of a scan in tapping mode; null: contact mode
 };
 
 // The only judge for wall and --json: of the artefacts found, the one that hides all others. First a tip that is off or

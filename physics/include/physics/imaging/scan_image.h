@@ -23,7 +23,7 @@ struct ScanImage {
   std::size_t columns = 0;
   std::size_t rows = 0;
   double width_m = 0;     // width of the scanned area: columns times a pixel's width
-  double height_m = 0;    // rows times a pixel's height
+  double height_m = 0;    // height of the scanned area: rows times a pixel's height
   double x_offset_m = 0;  // left edge of the area
   double y_offset_m = 0;  // top edge of the area
   std::vector<ImageChannel> channels;

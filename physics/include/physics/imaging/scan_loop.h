@@ -79,8 +79,8 @@ class ScanLoop {
   double ringing_period_ticks() const noexcept { return ringing_period_ticks_; }
 
   double z_m() const noexcept { return z_m_; }
-  double deflection_m() const noexcept { return deflection_m_; }       // lever, without noise
-  double force_n() const noexcept { return spring_ * deflection_m_; }  // lever; negative: it holds the tip back
+  double deflection_m() const noexcept { return deflection_m_; }       // deflection of the lever, without noise
+  double force_n() const noexcept { return spring_ * deflection_m_; }  // lever force; negative: it holds the tip back
   double noise_m() const noexcept { return noise_now_m_; }             // detection noise in this tick
   double setpoint_m() const noexcept { return setpoint_m_; }
   double topography_m() const noexcept { return z_m_ - held_gap_m_; }  // recorded height
@@ -111,7 +111,7 @@ class ScanLoop {
   }
 
   double tick_s_ = 0, spring_ = 0, setpoint_m_ = 0, held_gap_m_ = 0, pull_off_m_ = 0, snap_in_m_ = 0;
-  double integral_ = 0, proportional_ = 0;  // per tick
+  double integral_ = 0, proportional_ = 0;  // gains per tick
   double noise_of_tick_m_ = 0, angle_of_tick_ = 0;
   double reach_m_ = 0;
   Frequency largest_gain_;

@@ -22,8 +22,8 @@ struct ScanArea {
   Length height{500e-9};
   Length x_centre;
   Length y_centre;
-  std::size_t columns = 256;  // 2 to kMostScanPixels
-  std::size_t rows = 256;     // 1 to kMostScanPixels
+  std::size_t columns = 256;  // number of columns, 2 to kMostScanPixels
+  std::size_t rows = 256;     // number of rows, 1 to kMostScanPixels
 };
 
 inline constexpr std::size_t kMostScanPixels = 4096;
@@ -33,7 +33,7 @@ inline constexpr std::size_t kMostScanPixels = 4096;
 struct ScanSettings {
   Frequency line_rate{2.0};          // lines a second, each there and back: tip speed 2 * width * line_rate
   Force setpoint{0.5e-9};            // lever force; negative: only adhesion holds the tip
-  Frequency integral_gain{1000.0};   // 1/s; on a rigid contact 1/tau of the closed loop
+  Frequency integral_gain{1000.0};   // gain of the integrator; on a rigid contact 1/tau of the closed loop
   double proportional_gain = 0.0;    // gain of the velocity form, per tick: below one
   Frequency loop_rate{100e3};        // lower limit of the controller's tick rate
   Time detector_delay;               // delay until the controller sees a deflection; rounded to ticks
@@ -43,12 +43,12 @@ struct ScanSettings {
   Stiffness spring_constant{0.1};    // lever stiffness
   Force adhesion{0.5e-9};            // magnitude of the pull at which the tip leaves the surface
   Length snap_in;                    // gap at which a free tip touches again
-  double friction = 0.3;             // mu, of the lateral force
+  double friction = 0.3;             // coefficient mu of the lateral friction
   Length noise;                      // rms of the detected deflection within kNoiseBandwidth; white
   Velocity drift_x;                  // drift of the sample against the scanner
   Velocity drift_y;                  // drift of the sample against the scanner; positive: upwards, towards row 0
-  Length second_apex_distance;       // along +x from the first apex; zero: there is none
-  Length second_apex_height;         // height of its end above the first apex
+  Length second_apex_distance;       // distance of the second apex along +x; zero: there is none
+  Length second_apex_height;         // height of the second apex's end above the first apex
   Feedback feedback = Feedback::On;  // off: the z scanner stays where it is
 };
 
@@ -65,17 +65,17 @@ struct ScanField {
   std::string_view json_key;                    // key of its SI value
   std::string_view help;                        // description for help texts
   double smallest;                              // smallest legal value, SI
-  double largest;                               // largest accepted value
-  const Units* units;                           // kPlainNumber if it has none
-  double (*get)(const ScanSettings& settings);  // SI
+  double largest;                               // largest legal value, SI
+  const Units* units;                           // units of the value; kPlainNumber if it has none
+  double (*get)(const ScanSettings& settings);  // getter of the SI value
   void (*set)(ScanSettings& settings, double si);
 
-  std::string text(double si) const { return format_si(si, units->units); }  // "500 pN", "0.3"
+  std::string text(double si) const { return format_si(si, units->units); }  // value as text: "500 pN", "0.3"
 };
 
 inline constexpr std::size_t kScanFieldCount = 18;
 
-// In the order of the members, without Feedback, which is not a number.
+// Rows in the order of the members, without Feedback, which is not a number.
 extern const std::array<ScanField, kScanFieldCount> kScanFields;
 
 // Throw UnphysicalValue unless every number is within its range.

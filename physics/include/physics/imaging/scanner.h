@@ -15,26 +15,26 @@
 
 namespace afm::physics {
 
-enum class ScanPass { Trace, Retrace };  // along +x, along -x
+enum class ScanPass { Trace, Retrace };  // motion along +x, motion along -x
 
 // Record of one pixel, at its centre.
 struct ScanPixel {
-  std::size_t row = 0;     // 0 is the top one, with the largest y
-  std::size_t column = 0;  // 0 is the left one, on both passes
+  std::size_t row = 0;     // row of the image; 0 is the top one, with the largest y
+  std::size_t column = 0;  // column of the image; 0 is the left one, on both passes
   ScanPass pass = ScanPass::Trace;
-  double height_m = 0;   // z + d_set
-  double error_n = 0;    // k (d - d_set), with the detector's noise averaged over the pixel
-  double lateral_n = 0;  // positive along -x: against the trace
+  double height_m = 0;   // recorded height, z + d_set
+  double error_n = 0;    // error signal k (d - d_set), with the detector's noise averaged over the pixel
+  double lateral_n = 0;  // lateral force, positive along -x: against the trace
   // in tapping mode only, where error_n is the amplitude error A_set - A in metres
-  double phase_deg = 0;     // lag behind the drive
-  double energy_j = 0;      // lost in the sample per swing
-  double peak_force_n = 0;  // at the lowest point of the swing
-  // over all ticks since the previous pixel
-  double lowest_force_n = 0;   // lever force
-  double highest_force_n = 0;  // lever force
-  double off_surface = 0;      // share without contact, 0 to 1
-  double on_second_apex = 0;   // share in contact with the second apex
-  double ringing = 0;          // share in which the lever force swings as the loop does when it rings
+  double phase_deg = 0;     // lag of the swing behind the drive
+  double energy_j = 0;      // energy lost in the sample per swing
+  double peak_force_n = 0;  // force at the lowest point of the swing
+  // extremes and shares since the previous pixel
+  double lowest_force_n = 0;   // lowest force of the lever
+  double highest_force_n = 0;  // highest force of the lever
+  double off_surface = 0;      // share of the time without contact, 0 to 1
+  double on_second_apex = 0;   // share of the time in contact with the second apex
+  double ringing = 0;          // share of the time in which the lever force swings as in a ringing loop
 };
 
 // One pass, by column.
@@ -42,7 +42,7 @@ struct ScanTrack {
   std::vector<double> height_m;
   std::vector<double> error_n;
   std::vector<double> lateral_n;
-  std::vector<double> phase_deg, energy_j, peak_force_n;  // only in tapping mode
+  std::vector<double> phase_deg, energy_j, peak_force_n;  // channels of tapping mode, otherwise empty
   double lowest_force_n = 0;
   double highest_force_n = 0;
   double off_surface = 0;
@@ -80,10 +80,10 @@ class Scanner {
 
   // Throws UnphysicalValue as validate() does, without any change.
   void change(const ScanSettings& settings);
-  // In tapping mode: another drive of the same lever, and another amplitude to keep. Throws as
+  // In tapping mode: changes the drive of the same lever and the amplitude to keep. Throws as
   // TappingDetector::drive().
   void drive(const DrivenLever& lever, Length setpoint);
-  void change_surface(Surface surface);  // another sample, or another tip
+  void change_surface(Surface surface);  // changes the sample or the tip
   const ScanSettings& settings() const noexcept { return settings_; }
   const ScanArea& area() const noexcept { return area_; }
 
@@ -103,7 +103,7 @@ class Scanner {
   // Current position of the apex, in the area's frame at time zero, for drawing it.
   double x_m() const noexcept { return x_m_; }
   double y_m() const noexcept { return y_m_; }
-  double z_m() const noexcept;  // apex height: includes the lever's deflection
+  double z_m() const noexcept;  // height of the apex, including the lever's deflection
   bool touching() const noexcept { return loop_.touching(); }
   const ScanLoop& loop() const noexcept { return loop_; }
 
@@ -122,14 +122,14 @@ class Scanner {
   ScanArea area_;
   ScanSettings settings_;
   Surface surface_;
-  std::size_t segments_ = 1, ticks_of_segment_ = 1;  // per pixel
+  std::size_t segments_ = 1, ticks_of_segment_ = 1;  // segments per pixel and ticks per segment
   double tick_s_ = 0;
   ScanLoop loop_;
   ForceSwings swings_;
   SlowDirection direction_ = SlowDirection::Down;
-  std::size_t row_ = 0, lines_done_ = 0, step_ = 0;  // step: 0 to 2 * columns, the pixel within the line
+  std::size_t row_ = 0, lines_done_ = 0, step_ = 0;  // step_: pixel within the line, 0 to 2 * columns
   double time_s_ = 0, x_m_ = 0, y_m_ = 0;
-  double height_m_ = 0, slope_ = 0;  // surface below the apex
+  double height_m_ = 0, slope_ = 0;  // height and slope of the surface below the apex
   bool engaged_ = false;
 };
 

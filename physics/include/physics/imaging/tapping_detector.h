@@ -42,7 +42,7 @@ class TappingDetector {
   // constructor does, without any change.
   void hold(Length setpoint);
 
-  // The same for another drive of this lever, by averages alone: its free amplitude at most 1.2 times that of the
+  // Changes the drive of this lever, by averages alone: its free amplitude at most 1.2 times that of the
   // constructor. Throws UnphysicalValue below the least quality factor of the averages, too.
   void drive(const DrivenLever& lever, Length setpoint);
 
@@ -50,12 +50,12 @@ class TappingDetector {
   void advance(double gap_m, double angle) noexcept;
 
   double amplitude_m() const noexcept;
-  double phase_rad() const noexcept;     // lag behind the drive, 0 to 2 pi
-  double lost_j() const noexcept;        // energy lost in the sample, per swing
-  double peak_force_n() const noexcept;  // at the lowest point of the swing
+  double phase_rad() const noexcept;     // lag of the swing behind the drive, 0 to 2 pi
+  double lost_j() const noexcept;        // energy lost in the sample per swing
+  double peak_force_n() const noexcept;  // force at the lowest point of the swing
 
   const DrivenLever& lever() const noexcept { return lever_; }
-  bool is_direct() const noexcept { return rests_ != nullptr; }  // by direct integration
+  bool is_direct() const noexcept { return rests_ != nullptr; }  // true: swings are integrated directly, not averaged
   double free_amplitude_m() const noexcept { return lever_.free_amplitude.si; }
   double setpoint_m() const noexcept { return setpoint_m_; }
   double engaged_gap_m() const noexcept { return engaged_.gap_m; }  // height of the base after engage()
@@ -71,7 +71,7 @@ class TappingDetector {
   std::shared_ptr<const TapSurface> surface_;
   DrivenLever lever_;
   Harmonics harmonics_;
-  std::shared_ptr<const TapTable> rests_;  // null for a high quality factor
+  std::shared_ptr<const TapTable> rests_;  // table of resting swings; null for a high quality factor
 
   double setpoint_m_ = 0;
   Engaged engaged_;

@@ -16,7 +16,7 @@ enum class TipKind { Paraboloid, Sphere, Cone, ThreeSidedPyramid, FourSidedPyram
 
 struct TipKindName {
   TipKind kind;
-  std::string_view name;  // value of options
+  std::string_view name;  // spelling in options
 };
 
 inline constexpr std::array kTipKinds{
@@ -34,10 +34,10 @@ std::string_view name_of(TipKind kind);
 // wide as the ball. One edge of the three-sided pyramid points along +x, the faces of the four-sided one along x and y.
 struct TipShape {
   TipKind kind = TipKind::Paraboloid;
-  Length radius{20e-9};           // positive
+  Length radius{20e-9};           // radius of the end, positive
   double half_angle_rad = 0.3;    // cone and pyramid: angle between axis and face, in (0, pi/2)
-  Length second_apex_distance{};  // along +x; zero: there is none
-  Length second_apex_height{};    // height of its end above the first apex
+  Length second_apex_distance{};  // distance along +x from the first apex; zero: no second apex
+  Length second_apex_height{};    // height of the second apex's end above the first apex
 
   // Height of the tip's surface above the apex, at a lateral position; infinite beyond a sphere's equator.
   double height_above_apex_m(double x_m, double y_m) const noexcept;
@@ -47,7 +47,7 @@ struct TipShape {
 struct TipGrid {
   std::size_t reach_columns = 0;
   std::size_t reach_rows = 0;
-  std::vector<double> above_apex_m;  // row by row; 0 at the apex, in the middle; infinite: no material
+  std::vector<double> above_apex_m;  // heights row by row; 0 at the apex, in the middle; infinite: no material
 
   std::size_t columns() const { return 2 * reach_columns + 1; }
   std::size_t rows() const { return 2 * reach_rows + 1; }

@@ -13,10 +13,10 @@
 // A tip that writes with molecules: dip-pen lithography (docs/manipulation.md, "Ink").
 namespace afm::physics {
 
-// Molecules that flow from a tip while it touches, as many each second, and cover the sample in one layer.
+// Molecules that flow from a touching tip at a constant rate and cover the sample in one layer.
 struct Ink {
-  double molecules_per_s = 0.0;  // J
-  Area footprint;                // a, of one molecule
+  double molecules_per_s = 0.0;  // J, rate of flow
+  Area footprint;                // a, area covered by one molecule
 };
 
 // Throws UnphysicalValue with the field molecules_per_s or footprint.
@@ -30,31 +30,31 @@ Length ink_dot_radius(const Ink& ink, Time time) noexcept;
 Length ink_line_width(const Ink& ink, Velocity speed) noexcept;
 
 // Squares of a flat sample that ink covers. What flows from the tip covers the nearest bare square, so that a dot grows
-// at its rim, as by diffusion over what is covered already. The area is exact: a share of a square waits in the tip.
+// at its rim, as by diffusion over the covered part. The area is exact: a fraction of a square waits in the tip.
 //
 // The constructor allocates; nothing else does, nor locks, throws or waits. One thread. The result depends on places
 // and times of the tip, never on a clock.
 class InkedSurface {
  public:
-  static constexpr std::size_t kMostSide = 1024;  // squares along x and along y
-  static constexpr int kReach = 256;              // squares from the tip to the farthest one that it covers
-  static constexpr std::size_t kTileSide = 16;    // squares along a side of a tile, in which the surface can be copied
+  static constexpr std::size_t kMostSide = 1024;  // largest number of squares along x and along y
+  static constexpr int kReach = 256;              // largest distance from the tip to a square that it covers
+  static constexpr std::size_t kTileSide = 16;    // squares along a side of a tile, the unit of copying
   static constexpr std::size_t kTileSquares = kTileSide * kTileSide;
 
-  // For a tip over the rectangle from `least` to `most`, with a margin around it. Throws std::invalid_argument if that
-  // needs more than kMostSide squares, and as validate() does.
+  // Surface for a tip over the rectangle from `least` to `most`, with a margin around it. Throws std::invalid_argument
+  // if that needs more than kMostSide squares, and as validate() does.
   InkedSurface(const Ink& ink, const Sideways<Length>& least, const Sideways<Length>& most, Length margin,
                Length spacing);
 
-  // The tip touches this place for a time. Ink for which no bare square is found among so many waits in the tip.
+  // Lets ink flow while the tip touches this place. Ink beyond the nearest `most_looks` squares waits in the tip.
   void touch(const Sideways<Length>& place, Time time,
              std::size_t most_looks = std::numeric_limits<std::size_t>::max()) noexcept;
 
   // Takes the tip off: what waits in it is given up, so that what it covers next depends only on the surface.
   void lift() noexcept;
 
-  Area covered() const noexcept;  // since the start
-  Area lost() const noexcept;     // ink that flowed out where no bare square was within reach
+  Area covered() const noexcept;  // area covered since the start
+  Area lost() const noexcept;     // area of the ink that flowed out with no bare square within reach
 
   // Mean width of what is covered across the middle half of a way.
   Length width(const Sideways<Length>& from, const Sideways<Length>& to) const noexcept;
@@ -90,11 +90,11 @@ class InkedSurface {
   double spacing_m_, left_m_, bottom_m_;
   std::size_t columns_, rows_;
   std::vector<std::uint8_t> covered_;
-  std::vector<std::uint8_t> changed_;  // one for each tile, 1: changed
+  std::vector<std::uint8_t> changed_;  // flag of each tile, 1: changed
   std::vector<Offset> nearest_;        // offsets within reach, the nearest first
-  std::size_t next_ = 0;               // all offsets before it are covered, at the place of the last touch
+  std::size_t next_ = 0;               // first offset that may be bare at the place of the last touch
   long column_ = -1, row_ = -1;        // square of the last touch
-  double waiting_ = 0.0;               // squares that have flowed out and are not covered yet
+  double waiting_ = 0.0;               // squares' worth of ink that has flowed out and covers nothing yet
   double covered_squares_ = 0.0, lost_squares_ = 0.0;
 };
 

@@ -16,29 +16,29 @@
 // A soft surface as a grid of heights that a tip cuts (docs/manipulation.md, "Scratches").
 namespace afm::physics {
 
-// Volumes of all marks. What has been pressed down is what springs back, ridges, and what is densified:
+// Volumes of all marks. Pressed material springs back, forms ridges, waits below the tip, or is densified:
 // pressed = sprung_back + ridges + under_way + densified.
 struct MarkVolumes {
-  Volume pressed;      // below the tip, under load
-  Volume sprung_back;  // raised again when the tip has left
+  Volume pressed;      // volume displaced by the tip under load
+  Volume sprung_back;  // volume that rose again after the tip left
   Volume ridges;
-  Volume under_way;  // piled up, but without room beside the tip until it moves on
+  Volume under_way;  // volume without room beside the tip until it moves on
   Volume densified;
 };
 
 // Mean cross-section of a straight groove, without load.
 struct GrooveSection {
-  Length depth;  // deepest place; 0: there is no groove
-  Length width;  // at the height of the surface before the first mark
-  Length ridge;  // highest place beside it
+  Length depth;  // deepest place of the groove; 0: there is no groove
+  Length width;  // width of the groove at the height of the surface before the first mark
+  Length ridge;  // highest place of the ridges beside the groove
 };
 
-// Place of a tip that a lever presses, and what it costs.
+// Position of a tip pressed by a lever, and the work that it takes.
 struct Sunk {
-  Length apex;         // height
-  Volume displaced;    // material that it presses down there
-  Force resistance;    // against a motion along the given way
-  bool stops = false;  // at the lowest height: the load is more than the surface bears
+  Length apex;         // height of the apex
+  Volume displaced;    // volume of the material displaced at this place
+  Force resistance;    // resistance of the material against motion along the given way
+  bool stops = false;  // true: the tip is at its lowest height, and the load exceeds the model of the surface
 };
 
 // Heights of a flat surface at z = 0, on squares of R_t/8. Each square under the tip bears the hardness, or lies lower
@@ -48,13 +48,13 @@ struct Sunk {
 // The constructor allocates; nothing else does, nor locks, throws or waits. One thread.
 class MarkedSurface {
  public:
-  static constexpr int kMostSide = 512;  // squares along x and along y
-  static constexpr int kReach = 16;      // squares
+  static constexpr int kMostSide = 512;  // largest number of squares along x and along y
+  static constexpr int kReach = 16;      // largest distance of a square below the tip from its axis, in squares
   static constexpr double kSquaresPerRadius = 8.0;
-  static constexpr std::size_t kTileSide = 16;  // squares along a side of a tile, in which the surface can be copied
+  static constexpr std::size_t kTileSide = 16;  // squares along a side of a tile, the unit of copying
   static constexpr std::size_t kTileSquares = kTileSide * kTileSide;
 
-  // For a tip over the rectangle from `least` to `most`. Throws std::invalid_argument if that needs more than
+  // Surface for a tip over the rectangle from `least` to `most`. Throws std::invalid_argument if that needs more than
   // kMostSide squares, and as validate() and validate_marking_tip() do.
   MarkedSurface(const SphereCone& tip, const SoftSurface& surface, const Sideways<Length>& least,
                 const Sideways<Length>& most);
@@ -65,13 +65,13 @@ class MarkedSurface {
   // Returns whether a tip may be there.
   bool holds(const Sideways<Length>& place) const noexcept;
 
-  // The lowest height that an apex takes.
+  // The lowest possible height of an apex.
   Length deepest() const noexcept { return Length(deepest_m_); }
 
-  // No point of the surface is higher.
+  // Upper bound of the surface's height.
   Length highest() const noexcept { return Length(highest_m_); }
 
-  // Lowers that bound to a height that no point exceeds, at least to 0.
+  // Lowers that bound to a height above which no point lies, at least to 0.
   void lower_highest(Length height) noexcept;
 
   Length spacing() const noexcept { return Length(spacing_m_); }
@@ -99,10 +99,10 @@ class MarkedSurface {
 
   MarkVolumes volumes() const noexcept;
 
-  // Of the middle half of the way, across it.
+  // Mean section across the middle half of a way.
   GrooveSection section(const Sideways<Length>& from, const Sideways<Length>& to) const noexcept;
 
-  // By the heights of the grid: the parts below z = 0 and above it, without load.
+  // Volumes by the heights of the grid, without load: below z = 0 and above it.
   Volume below() const noexcept;
   Volume above() const noexcept;
 
@@ -178,14 +178,14 @@ class MarkedSurface {
 
   double hardness_pa_, pile_up_share_;
   double spacing_m_, deepest_m_, highest_m_ = 0.0;
-  std::vector<double> profile_m_;  // heights of the tip above its apex, evenly in r^2, beyond all squares within reach
-  double places_per_m2_ = 0.0;     // density of the profile
-  double least_rise_per_m_ = 0.0;  // within reach, the tip is at least as much times r^2 above its apex
-  double left_m_ = 0.0, bottom_m_ = 0.0;  // middle of the first square
+  std::vector<double> profile_m_;         // heights of the tip above its apex, evenly spaced in r^2, beyond kReach
+  double places_per_m2_ = 0.0;            // density of the profile
+  double least_rise_per_m_ = 0.0;         // lower bound of the tip's height above its apex divided by r^2, within reach
+  double left_m_ = 0.0, bottom_m_ = 0.0;  // position of the middle of the first square
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<double> pressed_m_;      // height under the tip that pressed last
+  std::vector<double> pressed_m_;      // height of each square under the tip that pressed it last
   std::vector<double> back_m_;         // rise of the surface when the tip has left
-  std::vector<std::uint8_t> changed_;  // one for each tile, 1: changed
+  std::vector<std::uint8_t> changed_;  // flag of each tile, 1: changed
   double pressed_m3_ = 0.0, for_good_m3_ = 0.0, ridges_m3_ = 0.0, under_way_m3_ = 0.0;
 };
 

@@ -10,9 +10,9 @@ namespace afm::physics {
 
 // A surface that flows where a tip presses it with its hardness, at any speed.
 struct SoftSurface {
-  Pressure hardness;               // H
-  Pressure reduced_modulus;        // E* of tip and surface
-  SurfaceEnergy work_of_adhesion;  // W of tip and surface
+  Pressure hardness;               // H, hardness of the surface
+  Pressure reduced_modulus;        // E* of tip and surface, their reduced modulus
+  SurfaceEnergy work_of_adhesion;  // W of tip and surface, work of adhesion
   double pile_up_share = 0.0;      // share of the volume of a groove that is piled up beside it; the rest is densified
 };
 
@@ -20,7 +20,7 @@ struct SoftSurface {
 // less than five times its hardness as E* springs back as a whole, and is refused.
 void validate(const SoftSurface& surface);
 
-// The same with the field tip_radius or half_angle: a flank that is too steep or too flat is refused.
+// Throws UnphysicalValue with the field tip_radius or half_angle if the flank is too steep or too flat.
 void validate_marking_tip(const SphereCone& tip);
 
 // The outline of a tip of validate_marking_tip(): heights above its apex.
@@ -30,7 +30,7 @@ class TipOutline {
 
   Length radius_at(Length height) const noexcept;
   Length height_at(Length radius) const noexcept;
-  Length rim_height() const noexcept { return Length(rim_height_m_); }  // border of cap and cone
+  Length rim_height() const noexcept { return Length(rim_height_m_); }  // height of the border between cap and cone
 
  private:
   double cap_m_, rim_radius_m_, rim_height_m_, slope_;
@@ -47,7 +47,7 @@ Area groove_section(const SphereCone& tip, Length depth) noexcept;
 Length imprint_depth(const SphereCone& tip, const SoftSurface& surface, Force load) noexcept;
 Length groove_depth(const SphereCone& tip, const SoftSurface& surface, Force load) noexcept;
 
-// Radius of the contact, standing and dragged: sqrt(F/(pi H)) and sqrt(2 F/(pi H)).
+// Radius of the contact of a tip at rest and of a dragged one: sqrt(F/(pi H)) and sqrt(2 F/(pi H)).
 Length imprint_radius(const SoftSurface& surface, Force load) noexcept;
 Length groove_radius(const SoftSurface& surface, Force load) noexcept;
 

@@ -15,11 +15,11 @@ namespace afm::physics {
 
 // Result of a second look.
 struct SecondLook {
-  Time at;                   // end of the scan, from the start
-  std::size_t particle = 0;  // the one that was looked at, and the lines that it took
+  Time at;                   // end of the scan, since the start
+  std::size_t particle = 0;  // particle that was scanned again, and number of lines scanned
   std::size_t lines = 0;
-  ParticlePlace shown;                    // place in the picture before
-  std::optional<ParticlePlace> measured;  // place found; nothing if the particle is not in the box
+  ParticlePlace shown;                    // place in the picture before the scan
+  std::optional<ParticlePlace> measured;  // place found by the scan; empty if the particle is not in the box
 };
 
 // Picture in the scanner's frame that a person has of particles and pushes by: measured once, computed after each
@@ -36,7 +36,7 @@ class OperatorsPicture {
   OperatorsPicture(PushSetup setup, const std::vector<PlacedParticle>& particles, const LeverBase& start, bool apart,
                    bool looks);
 
-  // After each tick: the base in the frame of the picture, and the particles, whose sample has drifted so far.
+  // Call after each tick: `base` is in the frame of the picture, and the sample of `truth` has drifted by `drift`.
   void follow(const LeverBase& base, Time elapsed, const PushedParticles& truth, const Sideways<Length>& drift);
 
   const ParticlePicture& picture() const { return picture_; }
@@ -44,9 +44,9 @@ class OperatorsPicture {
   const PlaceDoubt& doubt() const { return doubt_; }
   std::span<const SecondLook> looks() const { return looks_; }
 
-  bool is_measured(std::size_t particle) const { return !states_[particle].pushed; }  // since it was pushed last
+  bool is_measured(std::size_t particle) const { return !states_[particle].pushed; }  // scanned since its last push
   bool all_measured() const;
-  Time age(std::size_t particle) const { return time_ - states_[particle].seen; }  // since it was measured last
+  Time age(std::size_t particle) const { return time_ - states_[particle].seen; }  // time since the last scan of it
   bool is_stale(std::size_t particle) const;
 
   // Sum of the results of all looks at the newest look's particle: a hand aims that far beside its first plan.
@@ -54,7 +54,7 @@ class OperatorsPicture {
 
  private:
   struct State {
-    Time seen, tried;  // last times at which it was measured and looked at
+    Time seen, tried;  // times of the last successful and the last attempted scan
     bool pushed = false;
     Sideways<Length> found;
   };
@@ -64,7 +64,7 @@ class OperatorsPicture {
     Time begun;
     std::size_t done = 0;  // number of finished lines
     std::vector<std::optional<ParticlePlace>> found;
-    std::vector<ParticlePlace> there;  // in the newest line
+    std::vector<ParticlePlace> there;  // places of the particles during the newest line
   };
 
   void end_stroke(const PushedParticles& truth, const Sideways<Length>& drift);
@@ -80,7 +80,7 @@ class OperatorsPicture {
   bool may_look_;
   ParticlePicture picture_;
   PlaceDoubt doubt_;
-  std::optional<PushedParticles> model_;  // only while picture and particles are apart
+  std::optional<PushedParticles> model_;  // model of the computed picture; empty unless it differs from the truth
   std::vector<std::size_t> species_;
   std::vector<ParticlePlace> shown_;
   std::vector<State> states_;

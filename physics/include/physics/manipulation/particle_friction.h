@@ -18,19 +18,19 @@ namespace afm::physics {
 // One kind of sphere, rod or flat island on one sample. A parameter that the law does not use may be zero; rods and
 // islands need no modulus and no work of adhesion, and their law is ParticleLaw::Measured.
 struct ParticleSpecies {
-  AdhesiveContact contact;  // its tip_radius is that of the sphere, of the rod or of the island's rim, R_p
+  AdhesiveContact contact;  // contact with the sample; its tip_radius is R_p: radius of sphere, rod or island's rim
   ParticleLaw law = ParticleLaw::ContactArea;
-  Pressure shear_strength;         // tau
-  double coefficient = 0.0;        // mu
-  Force measured_threshold;        // f_s of ParticleLaw::Measured; of a rod, to move it sideways as a whole
-  double kinetic_ratio = 0.5;      // r_k = f_k/f_s, above 0 and at most 1
-  Time ageing;                     // t_a; 0: a resting sphere has f_s at once
-  Length rolling_distance;         // xi; 0: the sphere slides and never rolls
-  SurfaceEnergy tip_adhesion;      // W_t, between sphere and tip
+  Pressure shear_strength;         // tau, shear strength of the contact
+  double coefficient = 0.0;        // mu, coefficient of friction
+  Force measured_threshold;        // f_s of ParticleLaw::Measured; for a rod, the force that moves it sideways
+  double kinetic_ratio = 0.5;      // r_k = f_k/f_s, ratio of kinetic and static friction, above 0 and at most 1
+  Time ageing;                     // t_a, time constant of ageing; 0: a resting sphere has f_s at once
+  Length rolling_distance;         // xi, distance of rolling friction; 0: the sphere slides and never rolls
+  SurfaceEnergy tip_adhesion;      // W_t, work of adhesion between sphere and tip
   Length length;                   // length of a rod's axis, which rests on the sample; 0: a sphere
-  bool sticks = false;             // the tip holds a sphere that it has touched (tip_hold.h); needs tip_adhesion
+  bool sticks = false;             // true: the tip holds a sphere after touching it (tip_hold.h); needs tip_adhesion
   std::uint16_t scatter_seed = 0;  // seed of the scatter of pull-offs; 0: none
-  Length island_radius;            // R of a flat island, which is twice R_p high and has a round rim; 0: none
+  Length island_radius;            // R of a flat island with a height of 2 R_p and a round rim; 0: no island
 };
 
 inline bool is_rod(const ParticleSpecies& species) noexcept { return species.length.si > 0.0; }
@@ -39,12 +39,12 @@ inline bool is_island(const ParticleSpecies& species) noexcept { return species.
 // A rod or an island: pushed off centre it turns about the vertical, and it never rolls.
 inline bool turns_flat(const ParticleSpecies& species) noexcept { return is_rod(species) || is_island(species); }
 
-// Radius as seen from above: of a sphere, across a rod, of an island.
+// Radius seen from above: radius of a sphere, half width of a rod, radius of an island.
 inline Length outer_radius(const ParticleSpecies& species) noexcept {
   return is_island(species) ? species.island_radius : species.contact.tip_radius;
 }
 
-// Radius of an island without its rim; 0 of all else.
+// Radius of an island without its rim; 0 for other particles.
 inline Length core_radius(const ParticleSpecies& species) noexcept {
   return is_island(species) ? species.island_radius - species.contact.tip_radius : Length(0.0);
 }
@@ -56,7 +56,7 @@ void validate(const ParticleSpecies& species);
 // Pull-off of sphere and sample, F_ad = 3/2 pi W R.
 Force pull_off_force(const ParticleSpecies& species) noexcept;
 
-// Place of the contact between the limits of JKR, above 5, and DMT, below 0.1 (physics/adhesion_map.h).
+// Tabor parameter of the contact: JKR above 5, DMT below 0.1 (physics/adhesion_map.h).
 double tabor_parameter(const ParticleSpecies& species, Length atomic_distance);
 
 // f_s at the load P >= 0 by a law; P excludes adhesion.
@@ -65,7 +65,7 @@ inline Force sliding_threshold(const ParticleSpecies& species, Force load) {
   return sliding_threshold(species, species.law, load);
 }
 
-// The same for a sphere that is pulled up, which loses its hold on the sample at F_ad.
+// Threshold f_s of a sphere that is pulled up; it loses its hold on the sample at F_ad.
 Force threshold_under_pull(const ParticleSpecies& species, Force pull);
 
 // M(P) = xi sqrt(8 pi W E* a^3), 6 pi W R xi at P = 0 (Dominik & Tielens 1995; M5).
@@ -87,17 +87,17 @@ static_assert(has_row_for_each(kPushModes, &PushModeText::mode));
 
 // Friction between tip and sphere: holds up to mu_t (N + F_t).
 struct TipGrip {
-  double coefficient = 0.0;  // mu_t
-  Force adhesion;            // F_t = 3/2 pi W_t R_eff
+  double coefficient = 0.0;  // mu_t, coefficient of friction of tip and sphere
+  Force adhesion;            // F_t = 3/2 pi W_t R_eff, pull-off force of tip and sphere
 };
 
 // Forces at which a sphere yields to a tip whose normal points down by phi. All magnitudes.
 struct PushBalance {
   PushMode mode = PushMode::Slides;
-  Force normal;    // N
-  Force friction;  // T, at the tip, upwards on the tip's side of the sphere
-  Force lateral;   // force on the lever, against the push: N cos(phi) - T sin(phi)
-  Force lift;      // force on the lever, upwards: N sin(phi) + T cos(phi), which is also the load P
+  Force normal;    // N, normal force between tip and sphere
+  Force friction;  // T, friction at the tip, upwards on the tip's side of the sphere
+  Force lateral;   // force on the lever against the push: N cos(phi) - T sin(phi)
+  Force lift;      // upward force on the lever: N sin(phi) + T cos(phi), equal to the load P
 };
 
 // Balance of forces and moments (M6):
@@ -105,8 +105,8 @@ struct PushBalance {
 //   slides:  N cos - T sin = f_s(P),  T = max(0, f_s - M/R_p)  if T <= mu_t (N + F_t)
 //   rolls:   T = mu_t (N + F_t),      N cos - T sin = M/R_p + T  otherwise
 //
-// Jams, with infinite forces, where no force is enough. `share` multiplies f_s and M: the kinetic ratio of a sphere
-// that moves, 1 of one at rest.
+// Jams, with infinite forces, where no force suffices. `share` multiplies f_s and M: the kinetic ratio for a moving
+// sphere, 1 for one at rest.
 PushBalance push_balance(const ParticleSpecies& species, const TipGrip& grip, double sine, double cosine,
                          double share = 1.0);
 

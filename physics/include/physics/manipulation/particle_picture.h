@@ -28,7 +28,7 @@ struct PixelBox {
   bool operator==(const PixelBox&) const = default;
 };
 
-// Lines that a second look at a place takes: those of a box of three times rho(0) to each side.
+// Number of lines of a second look at a place: those of a box of three times rho(0) to each side.
 inline constexpr std::size_t kLookLines = 33;
 
 // Distance of the axes at which a tip on the sample touches the particle: rho(0), by (M1) or (M2).
@@ -52,7 +52,7 @@ class ParticlePicture {
   // old and new footprint; returns the box in which these are, clipped to the picture.
   PixelBox move(std::size_t particle, const ParticlePlace& before, std::span<const ParticlePlace> now);
 
-  // The same box in a picture without borders: columns and rows.
+  // The box of move() in a picture without borders: columns and rows.
   PixelBox box_around(std::size_t particle, const ParticlePlace& before, const ParticlePlace& after) const;
 
   // Measures the pixels of a box within the picture, with all particles at these places.
@@ -60,11 +60,11 @@ class ParticlePicture {
 
   const HeightGrid& heights() const { return heights_; }
   Source source(std::size_t column, std::size_t row) const { return sources_[row * heights_.columns + column]; }
-  std::size_t computed() const;  // number of computed pixels
+  std::size_t computed() const;  // number of computed pixels in the picture
 
  private:
   struct Shape {
-    Length radius, reach;  // reach: footprint_radius()
+    Length radius, reach;  // reach: footprint_radius() of the particle
     double half_m = 0.0;   // half length of a rod
   };
   struct Field {
@@ -82,7 +82,7 @@ class ParticlePicture {
   double y_m(std::size_t row) const;
 
   SphereCone tip_;
-  std::vector<Shape> shapes_;  // shape of each particle
+  std::vector<Shape> shapes_;  // shapes in the order of the particles
   HeightGrid heights_;
   std::vector<Source> sources_;
 };

@@ -15,11 +15,11 @@ inline constexpr std::size_t kMostParticles = 2048;
 inline constexpr std::size_t kMostStickyPads = 8;
 
 enum class PushState : std::uint32_t {
-  Free = 0,   // no sphere is touched
-  Holds = 1,  // a sphere is touched, and stays
+  Free = 0,   // no particle is touched
+  Holds = 1,  // a particle is touched and stays in place
   Slides = 2,
   Rolls = 3,
-  Several = 4,  // more than one sphere moves or could move
+  Several = 4,  // more than one particle moves or could move
   Carried = 5,  // a sphere hangs on the tip, off the sample
 };
 
@@ -35,16 +35,16 @@ static_assert(has_row_for_each(kPushStates, &PushStateText::state));
 
 // The laws disagree by a factor of 2 to 20 for particles below 100 nm, so every user chooses one by name.
 enum class ParticleLaw : std::uint32_t {
-  ContactArea = 0,  // tau pi a(P)^2
-  Amontons = 1,     // mu (P + F_ad)
-  Both = 2,         // mu P + tau pi a(P)^2
-  Measured = 3,     // a threshold that was measured, at any load
+  ContactArea = 0,  // shear strength times contact area, tau pi a(P)^2
+  Amontons = 1,     // coefficient times load and adhesion, mu (P + F_ad)
+  Both = 2,         // sum of a load term and an area term, mu P + tau pi a(P)^2
+  Measured = 3,     // measured threshold, independent of the load
 };
 
 struct ParticleLawText {
   ParticleLaw law;
-  std::string_view word;     // in particle files
-  std::string_view formula;  // text for people
+  std::string_view word;     // spelling in particle files
+  std::string_view formula;  // formula in words, for people
 };
 
 inline constexpr std::array kParticleLaws{

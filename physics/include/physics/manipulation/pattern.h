@@ -12,14 +12,14 @@ namespace afm::physics {
 
 // Particles on the places of a pattern, one on each.
 struct PatternMatch {
-  std::vector<std::size_t> particles;  // number of a particle for each target
-  Length rms;  // root of the mean square distance of the targets from them; of rods, of the ends
+  std::vector<std::size_t> particles;  // index of the assigned particle for each target
+  Length rms;  // root mean square distance between targets and assigned particles; for rods, of the ends
 };
 
 // Direction and length of rods in a pattern.
 struct PatternRods {
   std::span<const Sideways<double>> targets;    // unit vector along each target
-  std::span<const Sideways<Length>> particles;  // from the middle of each particle to an end
+  std::span<const Sideways<Length>> particles;  // vector from the middle of each particle to one end
 };
 
 // The assignment with the least sum of squared distances. A rod may lie either way round. There are at least as many

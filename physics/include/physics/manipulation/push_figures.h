@@ -5,21 +5,21 @@
 #include "physics/manipulation/tip_contact.h"
 #include "physics/units.h"
 
-// Figures that a user needs before a push: how gently to look, how stiff a lever to take, how well to aim. Any thread;
-// never in a tick.
+// Figures that a user needs before a push: gentlest load of a scan, stiffness of the lever, accuracy of the aim. Any
+// thread; never in a tick.
 namespace afm::physics {
 
 // Springs along the contact normal, in series (M8).
 struct PushSprings {
-  Stiffness lateral;  // k_l, of the lever
-  Stiffness normal;   // k_c, of the lever
-  Stiffness contact;  // k_n, of tip and sphere
+  Stiffness lateral;  // k_l, lateral stiffness of the lever
+  Stiffness normal;   // k_c, normal stiffness of the lever
+  Stiffness contact;  // k_n, normal stiffness of the contact of tip and sphere
 };
 
 // 1/k_eff = 1/k_n + cos^2/k_l + sin^2/k_c, N = k_eff times the overlap.
 Stiffness stiffness_along_normal(const PushSprings& springs, double sine, double cosine) noexcept;
 
-// k_eff cos^2, felt sideways.
+// Stiffness k_eff cos^2 against a sideways motion.
 Stiffness stiffness_sideways(const PushSprings& springs, double sine, double cosine) noexcept;
 
 // F_0 cot(theta - atan(mu_t)) = f_s(F_0) (M9): with feedback on, a scan above this load pushes the sphere instead of

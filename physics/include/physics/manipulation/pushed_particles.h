@@ -33,28 +33,28 @@ constexpr bool lies_on(const StickyPad& pad, const Sideways<Length>& place) noex
          -y_m <= pad.half_size.y.si;
 }
 
-// The same species on the pad.
+// The species as it is on the pad.
 inline ParticleSpecies on_pad(const StickyPad& pad, ParticleSpecies species) noexcept {
   if (!is_rod(species)) species.contact.work_of_adhesion = pad.work_of_adhesion;
   return species;
 }
 
-// Usual budget of a tick: looks at contacts by heaps, a figure that depends only on places and path.
+// Usual budget of a tick: number of contacts evaluated in heaps, which depends only on places and path.
 inline constexpr double kHeapLooks = 4000.0;
 
 struct PushSetup {
   SphereCone tip;
   PushSprings springs;
-  double tip_friction = 0.0;  // mu_t
+  double tip_friction = 0.0;  // mu_t, coefficient of friction of tip and particle
   std::vector<ParticleSpecies> species;
-  std::vector<StickyPad> pads{};  // pads; where several overlap, the first counts
+  std::vector<StickyPad> pads{};  // sticky pads; where several overlap, the first counts
   double heap_looks = kHeapLooks;
 };
 
 struct PlacedParticle {
   std::size_t species = 0;
-  Sideways<Length> position;  // centre
-  bool pinned = false;        // never moves
+  Sideways<Length> position;  // position of the centre
+  bool pinned = false;        // true: never moves
   double angle_rad = 0.0;     // angle of a rod's axis, or of an island's mark, from x
 };
 
@@ -91,36 +91,36 @@ struct LeverBase {
 
 inline constexpr std::size_t kNoParticle = static_cast<std::size_t>(-1);
 
-// After a tick. The certificate: given + stored at the start >= lost + stored, at every tick.
+// State after a tick. The certificate: given + stored at the start >= lost + stored, at every tick.
 struct PushTick {
   LeverBase base;                      // reached place; behind the requested one while `lagging`
   LeverBase apex;                      // apex on the bent lever
   Sideways<Force> lateral;             // force on the lever
   Force lift;                          // force on the lever, upwards, by spheres and sample
-  std::size_t particle = kNoParticle;  // the one with the largest normal force, either way
+  std::size_t particle = kNoParticle;  // particle with the largest normal force, pushed or pulled
   PushState state = PushState::Free;
-  Force normal;      // N of that particle; negative: the tip pulls it
+  Force normal;      // normal force on that particle; negative: the tip pulls it
   Force threshold;   // lateral force at which it starts or keeps moving
-  Force gave_at;     // force on the sphere that last yielded, at that moment
-  Force goes_on_at;  // force that has moved that sphere since
+  Force gave_at;     // force on the particle that yielded last, at that moment
+  Force goes_on_at;  // force that has moved that particle since
   Energy given;      // energy from the hand since the start, or since hold_over(), at a frozen tip in each sub-step: an
                      // upper bound
   Energy work;       // work of the hand since the start, by the force at both ends of each sub-step
   Energy lost;       // loss by friction and by slips of lone spheres since the start
-  Energy stored;     // energy in lever and contacts
-  std::uint64_t yields = 0;     // number of yields of spheres, since the start
-  std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the start
-  std::uint64_t attached = 0;   // contacts that the tip came to hold by adhesion, since the start
-  std::uint64_t dragged = 0;    // times that a sphere began to follow a pull, since the start
-  std::uint64_t torn = 0;       // contacts that tore, since the start
-  Force dragged_at;             // lateral force at which it began to follow, the last time
-  Force torn_at;                // pull of the contact that tore last
-  std::uint64_t lifted = 0;     // spheres that the tip lifted off the sample, since the start
-  Force lifted_at;              // pull-off of the last one from its place, upwards
-  std::uint64_t set_down = 0;   // times that a sphere on the tip came to lie on the sample, since the start
+  Energy stored;     // energy stored in lever and contacts
+  std::uint64_t yields = 0;     // number of times that a particle yielded, since the start
+  std::uint64_t exhausted = 0;  // number of ticks at whose end a heap was not at rest, since the start
+  std::uint64_t attached = 0;   // number of contacts formed by adhesion to the tip, since the start
+  std::uint64_t dragged = 0;    // number of times that a sphere began to follow a pull, since the start
+  std::uint64_t torn = 0;       // number of torn contacts, since the start
+  Force dragged_at;             // lateral force at which a sphere last began to follow the tip
+  Force torn_at;                // pull of the contact that tore last, at that moment
+  std::uint64_t lifted = 0;     // number of spheres lifted off the sample, since the start
+  Force lifted_at;              // upward pull-off force of the sphere lifted last
+  std::uint64_t set_down = 0;   // number of spheres set down on the sample, since the start
   Energy torn_lost;             // loss by tears of lone contacts, since the start or since hold_over(); part of `lost`
   bool lagging = false;
-  bool near = false;  // spheres are within reach of the apex
+  bool near = false;  // true: particles are within reach of the apex
 };
 
 // The constructor allocates; a tick neither allocates, locks, throws nor waits. One thread. The result depends on the
@@ -161,7 +161,7 @@ class PushedParticles {
   const PushTick& last() const noexcept;
   std::size_t size() const noexcept;
   Sideways<Length> position(std::size_t particle) const noexcept;
-  HalfTurn turn(std::size_t particle) const noexcept;  // constant for a sphere
+  HalfTurn turn(std::size_t particle) const noexcept;  // direction of the axis or mark; constant for a sphere
   // Point of a rod's axis, or of the flat part of an island, that is nearest to a place; the centre of a sphere.
   Sideways<Length> nearest(std::size_t particle, const Sideways<Length>& to) const noexcept;
   std::size_t species(std::size_t particle) const noexcept;

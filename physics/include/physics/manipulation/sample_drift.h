@@ -28,8 +28,8 @@ class SampleDrift {
 
 // Doubt about a place that was measured once, while an unknown drift goes on.
 struct PlaceDoubt {
-  Length at_first;  // sigma_0, of the measurement
-  Velocity rate;    // sigma_v, of the drift that is not known
+  Length at_first;  // sigma_0, standard deviation of the measurement
+  Velocity rate;    // sigma_v, standard deviation of the unknown drift velocity
 
   // sigma(t) = sqrt(sigma_0^2 + (sigma_v t)^2) (M61).
   Length after(Time age) const noexcept;
@@ -39,7 +39,7 @@ struct PlaceDoubt {
   Time stale_after(Length radius) const noexcept;
 };
 
-// Time for so many lines of an image, each forth and back.
+// Time of so many lines of an image, each back and forth.
 Time scan_time(std::size_t lines, Frequency line_rate) noexcept;
 
 }  // namespace afm::physics

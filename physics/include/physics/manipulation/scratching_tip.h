@@ -17,7 +17,7 @@ namespace afm::physics {
 
 enum class ScratchState : std::uint32_t {
   Free = 0,   // nothing is touched
-  Holds = 1,  // the surface bears the tip without giving
+  Holds = 1,  // the surface supports the tip without yielding
   Marks = 2,  // the tip presses the surface in
 };
 
@@ -30,19 +30,19 @@ inline constexpr std::array kScratchStates{ScratchStateText{ScratchState::Free, 
                                            ScratchStateText{ScratchState::Marks, "marks"}};
 static_assert(has_row_for_each(kScratchStates, &ScratchStateText::state));
 
-// After a tick. The certificate: given >= lost + stored, at every tick.
+// State after a tick. The certificate: given >= lost + stored, at every tick.
 struct ScratchTick {
-  LeverBase base;           // reached place; behind the asked one while `lagging`
+  LeverBase base;           // reached position of the base; behind the requested one while `lagging`
   LeverBase apex;           // apex on the bent lever
   Sideways<Force> lateral;  // force on the lever
-  Force load;               // force on the lever, upwards
+  Force load;               // upward force on the lever
   ScratchState state = ScratchState::Free;
   Energy given;   // energy from the hand since the start, at a frozen tip in each sub-step: an upper bound
   Energy work;    // work of the hand since the start, by the forces at both ends of each sub-step: an estimate
   Energy lost;    // hardness times the volume pressed down since the start
-  Energy stored;  // energy in the lever
-  std::uint64_t exhausted = 0;  // ticks at whose end the lever still pulled the tip on, since the start
-  bool stops = false;           // the tip is at the lowest height of the model
+  Energy stored;  // energy stored in the lever
+  std::uint64_t exhausted = 0;  // number of ticks at whose end the lever still pulled the tip on, since the start
+  bool stops = false;           // true: the tip is at the lowest height of the model
   bool lagging = false;
 };
 
@@ -57,7 +57,7 @@ void validate_lever(const PushSprings& springs);
 // allows. Of the springs, the contact's is not used: the surface itself is rigid until it gives.
 class ScratchingTip {
  public:
-  // For a base over the rectangle from `least` to `most`. Throws as MarkedSurface and validate_lever() do, and
+  // Tip for a base over the rectangle from `least` to `most`. Throws as MarkedSurface and validate_lever() do, and
   // std::invalid_argument for a start outside.
   ScratchingTip(const SphereCone& tip, const PushSprings& springs, const SoftSurface& surface,
                 const Sideways<Length>& least, const Sideways<Length>& most, const LeverBase& start);
@@ -70,15 +70,15 @@ class ScratchingTip {
   // ignored.
   void hold_over(const LeverBase& base) noexcept;
 
-  // Moves the base straight up or down in one step, down by at most half a square, with few looks: what a lever that is
-  // raised or lowered by something else than the hand needs between two ticks.
+  // Moves the base straight up or down in one step, down by at most half a square, with few evaluations: for a lever
+  // that is raised or lowered by something other than the hand between two ticks.
   void lift_base(Length up) noexcept;
 
   Stiffness normal_spring() const noexcept { return springs_.normal; }
   const ScratchTick& last() const noexcept { return tick_; }
   const MarkedSurface& surface() const noexcept { return surface_; }
 
-  // To put it back, or together from tiles; only while the tip is off it.
+  // Surface for restoring it or assembling it from tiles; only while the tip is off it.
   MarkedSurface& surface_below() noexcept { return surface_; }
 
  private:
@@ -101,10 +101,10 @@ class ScratchingTip {
   PushSprings springs_;
   SoftSurface soft_;
   MarkedSurface surface_;
-  Sideways<double> along_{0.0, 0.0};  // direction of the last motion in this contact; zero: it has only been pressed
+  Sideways<double> along_{0.0, 0.0};  // direction of the last motion in this contact; zero: only pressed so far
   double last_way_m_;                 // length of the last sideways step
-  int looks_ = 0;                     // left in this tick
-  Length contact_radius_;             // contact in which the surface gave last
+  int looks_ = 0;                     // evaluations left in this tick
+  Length contact_radius_;             // radius of the contact in which the surface yielded last
   bool rested_ = true;
   ScratchTick tick_;
 };

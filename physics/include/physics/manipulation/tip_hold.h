@@ -33,7 +33,7 @@ SurfaceEnergy lifting_adhesion(const SphereCone& tip, const ParticleSpecies& spe
 // True if the tip lifts the sphere off the sample, from the top or on its flank.
 bool lifts(const SphereCone& tip, const ParticleSpecies& species) noexcept;
 
-// The same off the sample or off any of its pads.
+// True if the tip lifts the sphere off the sample or off any of its pads.
 bool lifts_anywhere(const PushSetup& setup, const ParticleSpecies& species) noexcept;
 
 // Energy that a lone contact on this normal loses when it tears, F_t^2/(2 k_eff) (M25).
@@ -42,7 +42,7 @@ Energy tear_energy(Force pull_off, Stiffness along_normal) noexcept;
 // Uniform number between 0 and 1 for the contact `count` of a particle, the same on every machine.
 double scatter_number(std::uint64_t seed, std::uint64_t particle, std::uint64_t count) noexcept;
 
-// Factor of that contact's pull-off: log-normal with a mean of 1 and a spread of 20 % (M26).
+// Factor of the contact's pull-off force: log-normal with a mean of 1 and a spread of 20 % (M26).
 double pull_off_factor(std::uint64_t seed, std::uint64_t particle, std::uint64_t count) noexcept;
 
 }  // namespace afm::physics

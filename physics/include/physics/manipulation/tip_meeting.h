@@ -19,16 +19,16 @@ class TipMeeting {
  public:
   struct Event {
     EventKind kind = EventKind::ParticleTouched;
-    Force before;  // lateral, on the lever
+    Force before;  // lateral force on the lever before the event
     Force after;
   };
 
-  // At most two events a tick.
+  // Events of one tick, at most two.
   class Events {
    public:
     void add(const Event& event) noexcept { events_[count_++] = event; }
     std::span<const Event> all() const& noexcept { return std::span(events_).first(count_); }
-    std::span<const Event> all() const&& = delete;  // events that are gone
+    std::span<const Event> all() const&& = delete;  // deleted: the span would outlive its events
 
    private:
     std::array<Event, 2> events_{};
@@ -48,11 +48,11 @@ class TipMeeting {
   struct Contact {
     std::size_t particle = kNoParticle;
     bool felt = false;
-    bool from_side = false;  // began on the flank
-    bool pushed = false;     // the particle has moved
+    bool from_side = false;  // true: the contact began on the flank
+    bool pushed = false;     // true: the particle has moved
     bool ridden = false;
-    Force lateral{};         // in the newest tick
-    Force largest{};         // lateral, so far
+    Force lateral{};         // lateral force in the newest tick
+    Force largest{};         // largest lateral force so far
     double towards_x = 0.0;  // direction from the lever's base to the particle
     double towards_y = 0.0;
   };

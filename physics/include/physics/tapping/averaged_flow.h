@@ -15,14 +15,14 @@ class SwingShape;
 
 // Amplitude and phase of a swing, as in physics/tapping/driven_lever.h.
 struct TapState {
-  Length amplitude;    // A, zero-to-peak
-  double phase = 0.0;  // phi, rad
+  Length amplitude;    // A, amplitude zero-to-peak
+  double phase = 0.0;  // phi, lag behind the drive, rad
 };
 
 // A swing that repeats itself at one height of the base.
 struct RestingTap {
   TapState state;
-  Length deflection;  // x0, mean
+  Length deflection;  // x0, mean deflection
   SwingAverages averages;
   bool stable = false;
 };
@@ -87,7 +87,7 @@ class AveragedFlow {
 
  private:
   struct Rate {
-    double amplitude, phase;  // per w0 t
+    double amplitude, phase;  // rates of change per unit of w0 t
   };
   // Averages of the swing with its shift and shape, which are searched from those of the previous call.
   const SwingAverages& averages_at(double amplitude, double z, double coarseness = 1.0) noexcept;
@@ -115,10 +115,10 @@ class AveragedFlow {
   };
   Sample sample_at(double lowest, double z) noexcept;
   Sample rough_sample_at(double lowest, double z) noexcept;
-  // Both find the same states to some 1e-9; a session replays those of the slow one bit for bit.
+  // Search for states. Both kinds find the same to some 1e-9; a session replays those of the slow one bit for bit.
   enum class Roots { Quick, Slow };
   std::vector<RestingTap> resting_at(Length z, Roots roots);
-  std::vector<Sample> samples_at(double z, Roots roots);  // from the highest down
+  std::vector<Sample> samples_at(double z, Roots roots);  // samples from the highest one down
   RestingTap root_between(Sample one, Sample other, double z) noexcept;
   Sample turn_between(const Sample& left, const Sample& middle, const Sample& right, double z) noexcept;
   std::optional<RestingTap> stuck_at(double z) noexcept;
@@ -130,8 +130,8 @@ class AveragedFlow {
   DrivenLever lever_;
   Search search_;
   double k_, a_, r_, q_;
-  double harmonics_ratio_;             // drive over resonance, as the harmonics have it
-  std::unique_ptr<SwingShape> shape_;  // bend of the previous swing
+  double harmonics_ratio_;             // ratio of drive to resonance in the harmonics' response
+  std::unique_ptr<SwingShape> shape_;  // shape of the previous swing
   bool has_shape_ = true;
   double shift_ = 0.0;  // shift of the lowest point in the previous swing
   SwingAverages averages_;

@@ -8,8 +8,8 @@ namespace afm::physics {
 
 // The swing of the lever's base that drives it, given by what an instrument shows.
 struct Drive {
-  Length free_amplitude;  // A0, zero-to-peak, at the drive frequency and far from the sample
-  Frequency frequency;    // f_d
+  Length free_amplitude;  // A0, amplitude zero-to-peak at the drive frequency and far from the sample
+  Frequency frequency;    // f_d, frequency of the drive
 };
 
 // A lever under its drive. With x the deflection of the tip, positive away from the sample, and time in 1/w0:
@@ -22,13 +22,13 @@ struct DrivenLever {
   Stiffness spring_constant;
   Frequency resonance;
   double quality_factor = 1.0;
-  double ratio = 1.0;  // r
+  double ratio = 1.0;  // r = f_d/f0, drive over resonance
   Length free_amplitude;
-  Length base_amplitude;    // a
-  double free_phase = 0.0;  // rad
+  Length base_amplitude;    // a, amplitude of the base
+  double free_phase = 0.0;  // lag of the free lever behind its drive, rad
 
-  double angular_resonance() const noexcept;  // w0, rad/s
-  double angular_drive() const noexcept;      // r w0, rad/s
+  double angular_resonance() const noexcept;  // w0, angular resonance in rad/s
+  double angular_drive() const noexcept;      // r w0, angular drive frequency in rad/s
   Time relaxation() const noexcept;           // 2Q/w0, of any small change of a swing under a conservative force
 
   bool operator==(const DrivenLever&) const = default;

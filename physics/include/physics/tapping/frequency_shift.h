@@ -15,9 +15,9 @@ namespace afm::physics {
 //
 //   df = -f0 V/(k A^2),   V = <F A cos> of a harmonic swing;   for A -> 0: df = -f0 F'/(2k).
 struct FrequencyShiftPoint {
-  Length z;  // mean height of the tip, without a mean deflection
+  Length z;  // mean height of the tip, without the mean deflection
   Frequency shift;
-  Frequency small_amplitude_shift;  // by the gradient at the mean height
+  Frequency small_amplitude_shift;  // shift in the limit of small amplitudes, by the gradient at the mean height
   SwingAverages averages;
 };
 
@@ -29,11 +29,11 @@ struct FrequencyShiftTurn {
 };
 
 struct FrequencyShiftCurve {
-  std::vector<FrequencyShiftPoint> points;  // from the highest down
-  std::vector<FrequencyShiftTurn> turns;    // from the highest down
+  std::vector<FrequencyShiftPoint> points;  // points from the highest one down
+  std::vector<FrequencyShiftTurn> turns;    // turns from the highest one down
 };
 
-// At one height; throws as record_frequency_shift().
+// Shift at one height; throws as record_frequency_shift().
 FrequencyShiftPoint frequency_shift_at(const TapSurface& surface, Frequency resonance, Length amplitude, Length z);
 
 // A lever of this resonance and the surface's spring constant, with an amplitude within 1 pm to 10 um, on the way down;

@@ -31,7 +31,7 @@ class SwingMap {
   std::vector<DirectSwing> stable_beside(std::span<const TapState> known, Length z);
 
  private:
-  using Point = std::complex<double>;  // deflection, and velocity over the angular rate of the drive, m
+  using Point = std::complex<double>;  // deflection + i velocity/(angular rate of the drive), m
   // A fixed point of the map.
   struct Fixed {
     Point at;
@@ -43,7 +43,7 @@ class SwingMap {
   std::vector<Point> stable_points(Length z);  // fixed points to which the grid leads, each once
   std::optional<DirectSwing> settled_near(Point at, Length z);
 
-  TappingOscillator tip_, fine_;  // fine: with shorter steps
+  TappingOscillator tip_, fine_;  // fine_: the same tip with shorter steps
   double a0_m_;
 };
 

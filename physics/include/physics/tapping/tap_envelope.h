@@ -43,7 +43,7 @@ class TapEnvelope {
   void place(double u_m, double v_m, double gap_m) noexcept;
   void place(const TapState& state, double gap_m) noexcept;
 
-  // Another drive of the same lever from now on; the swing goes on. Allocates. Not for a lever with a low quality
+  // Changes the drive of the same lever from now on; the swing goes on. Allocates. Not for a lever with a low quality
   // factor. The tables reach to 1.25 times the free amplitude of the constructor; larger swings have the averages of
   // that one.
   void drive(const DrivenLever& lever);
@@ -54,16 +54,16 @@ class TapEnvelope {
 
   double amplitude_m() const noexcept { return amplitude_; }
   double phase_rad() const noexcept;                               // lag behind the drive, 0 to 2 pi
-  double lost_j() const noexcept { return contact().lost; }        // in the sample, per swing
-  double peak_force_n() const noexcept { return contact().peak; }  // at the lowest point of the swing
-  double mean_force_n() const noexcept { return contact().mean; }  // force of the sample on the tip, over a swing
+  double lost_j() const noexcept { return contact().lost; }        // energy lost in the sample per swing
+  double peak_force_n() const noexcept { return contact().peak; }  // force at the lowest point
+  double mean_force_n() const noexcept { return contact().mean; }  // mean force on the tip over a swing
 
   // Sine of the phase's excess over that of the free lever: positive where the sample attracts on average.
   double attraction() const noexcept;
 
   const DrivenLever& lever() const noexcept { return *lever_; }
-  bool at_rest_only() const noexcept { return rests_ != nullptr; }  // from a TapTable
-  bool repelled() const noexcept { return repelled_; }              // branch of that table
+  bool at_rest_only() const noexcept { return rests_ != nullptr; }  // true: states come from a TapTable
+  bool repelled() const noexcept { return repelled_; }              // branch; true: repulsive
 
  private:
   // Averages of one swing.
@@ -76,7 +76,7 @@ class TapEnvelope {
     float virial = 0, lost = 0;
   };
   struct Forces {
-    float peak = 0, mean = 0, lost = 0;  // lost in the sample alone
+    float peak = 0, mean = 0, lost = 0;  // lost: in the sample only
   };
   struct Tables {
     std::vector<Moving> moving;
@@ -90,10 +90,10 @@ class TapEnvelope {
   };
   struct Moved {
     double virial = 0, lost = 0;
-    bool beyond = true;  // farther than the last column: neither
+    bool beyond = true;  // true: farther than the last column, where both are zero
   };
   struct Cell {
-    double left = -1, low = -1, high = -1;  // column, rows; none at first
+    double left = -1, low = -1, high = -1;  // column and rows of the cell; -1: none yet
     double columns = 0, whole = 0, share = 0, by_gap = 0;
     Line virial_below, virial_above, lost_below, lost_above;
 
@@ -113,21 +113,21 @@ class TapEnvelope {
   struct Place {
     std::ptrdiff_t node = 0;
     double right = 0, up = 0;
-    bool beyond = true;  // farther than the last column: no force
+    bool beyond = true;  // true: farther than the last column, where no force acts
   };
   Place place_of(double amplitude_m, double gap_m) const noexcept;
   template <class Node>
   double between(const std::vector<Node>& nodes, const Place& place, float Node::* value) const noexcept;
-  double least_swing_m() const noexcept { return 1e-3 * least_amplitude_m_; }  // least swing with a phase
-  Swing contact() const noexcept;                                              // now
+  double least_swing_m() const noexcept { return 1e-3 * least_amplitude_m_; }  // smallest amplitude with a phase
+  Swing contact() const noexcept;                                              // averages of the current swing
   void approach_rest(double gap_m, double angle) noexcept;
   void set_pace() noexcept;
-  void measure() noexcept;  // the amplitude of u and v
+  void measure() noexcept;  // computes amplitude_ from u_ and v_
 
   // Numbers of a step that no swing changes.
   struct Pace {
-    double drive = 0, detuned = 0, damping = 0;  // a/2r, (r^2 - 1)/2r, 1/2Q
-    double by_stored = 0, by_turn = 0;           // 1/kr, 1/(2 pi k r)
+    double drive = 0, detuned = 0, damping = 0;  // terms a/2r, (r^2 - 1)/2r, 1/2Q
+    double by_stored = 0, by_turn = 0;           // factors 1/kr, 1/(2 pi k r)
     double by_row = 0, by_nudge = 0;             // rates by the rows' distance and by a small part of it, 1/m
     double slowest = 0;                          // inverse of the longest step
   };
@@ -137,14 +137,14 @@ class TapEnvelope {
   double least_amplitude_m_ = 0, amplitude_step_m_ = 0, least_x_ = 0, last_column_ = 0;
   std::ptrdiff_t columns_ = 0;
   Pace pace_;
-  std::shared_ptr<const Tables> tables_;    // null for a low quality factor
-  std::shared_ptr<const TapTable> rests_;   // null for a high one
-  bool repelled_ = false;                   // branch of rests_
+  std::shared_ptr<const Tables> tables_;    // tables of the averaged flow; null for a low quality factor
+  std::shared_ptr<const TapTable> rests_;   // table of resting swings; null for a high quality factor
+  bool repelled_ = false;                   // current branch of rests_; true: the repulsive one
   double free_cosine_ = 0, free_sine_ = 1;  // cosine and sine of the free phase
   double u_ = 0, v_ = 0, amplitude_ = 0;
   double gap_m_ = 0;  // gap of the newest swing
   struct Cells {
-    Cell first, middle, longer;  // cells of a step's beginning, of its middle, and of its ringing
+    Cell first, middle, longer;  // cells used for a step's beginning, its middle, and its ringing
   } cells_;
 };
 

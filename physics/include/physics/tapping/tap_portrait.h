@@ -18,7 +18,7 @@ struct SwingPoint {
 // that end in one of them and those that end in another. The edge is made of the paths into the unstable states, two
 // for each, drawn from that state outwards until A exceeds `reach`.
 struct TapPortrait {
-  std::vector<TapState> states;  // stable ones, the smallest amplitude first
+  std::vector<TapState> states;  // stable states, the smallest amplitude first
   std::vector<std::vector<SwingPoint>> edges;
 };
 

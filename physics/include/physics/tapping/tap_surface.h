@@ -17,10 +17,10 @@ class SwingShape;
 // One swing of the tip: height = centre - amplitude cos(angle), and its bend if it has one, with its lowest point at
 // angle 0.
 struct TapSwing {
-  Length amplitude;     // A, zero-to-peak
+  Length amplitude;     // A, amplitude zero-to-peak
   Length centre;        // mean height of the tip
-  double angular_rate;  // rad/s, for the viscosity
-  double ratio = 1.0;   // drive over resonance, for the harmonics; with a bend that of the bend holds
+  double angular_rate;  // angular rate for the viscosity, rad/s
+  double ratio = 1.0;   // drive over resonance, for the harmonics; with a bend, the ratio of the bend holds
 };
 
 // Means of the sample's force F over one swing. The mean deflection and the higher harmonics, which answer like a
@@ -31,11 +31,11 @@ struct TapSwing {
 // 0 <= t <= 2 pi from the lowest point (tapping/harmonic_response.h); for a short contact at the resonance that is half
 // of <F>/k towards the sample, not <F>/k away from it.
 struct SwingAverages {
-  Force mean;                  // <F>
-  Force shift_at_lowest;       // k times the deflection at the lowest point that is not of the first harmonic
-  Energy virial;               // V = <F A cos(r t - phi)>: positive where the sample attracts on balance
+  Force mean;                  // <F>, mean force
+  Force shift_at_lowest;       // k times the deflection at the lowest point less its first harmonic
+  Energy virial;               // virial V = <F A cos(r t - phi)>: positive where the sample attracts on balance
   Energy lost;                 // energy lost in the sample per swing
-  Force peak;                  // F at the lowest point
+  Force peak;                  // force at the lowest point
   Length lowest;               // lowest height of the tip
   double contact_share = 0.0;  // share of the swing in which the tip is in contact
 };
@@ -52,16 +52,16 @@ class TapSurface {
   TapSurface(Law law, const ContactParameters& contact, const LawOptions& options = {},
              Viscosity viscosity = Viscosity());
 
-  // From the law's tables, accurate to 1e-8 of the force. A bend of the swing learns the forces.
+  // Averages from the law's tables, accurate to 1e-8 of the force. Updates a given `shape` with the forces.
   SwingAverages averages(const TapSwing& swing, SwingShape* shape = nullptr) const noexcept;
 
-  // The same from the law itself: to 1e-11, but some twenty times as long.
+  // Averages from the law itself: to 1e-11, but some twenty times as long.
   SwingAverages exact_averages(const TapSwing& swing) const;
 
-  // dF/dh at a height, of a tip that comes from above.
+  // dF/dh at a height, for a tip that comes from above.
   Stiffness exact_gradient(Length height) const;
 
-  // For direct integration with a lever of this spring constant and swings of this amplitude.
+  // Force for direct integration with a lever of this spring constant and swings of this amplitude.
   std::shared_ptr<const TipForce> tip_force(Length amplitude) const;
 
   // eta sqrt(R delta) at a height, in N s/m; zero without contact.
@@ -69,15 +69,15 @@ class TapSurface {
 
   bool viscous() const noexcept { return viscous_si_ > 0.0; }
   const ContactParameters& contact() const noexcept { return contact_; }
-  Length contact_height() const noexcept { return grips_->figures.z_jtc; }     // a free tip comes into contact
-  Length release_height() const noexcept { return grips_->figures.z_joc; }     // an attached one is released
+  Length contact_height() const noexcept { return grips_->figures.z_jtc; }     // contact of a free tip
+  Length release_height() const noexcept { return grips_->figures.z_joc; }     // release of an attached tip
   Length zero_of_indentation() const noexcept { return grips_->contact_gap; }  // height at which delta is zero
 
  private:
-  ContactParameters contact_;  // with the lever's spring constant
+  ContactParameters contact_;  // parameters, including the lever's spring constant
   std::shared_ptr<const LawTables> grips_;
   ForceLaw law_;
-  double viscous_si_ = 0.0;  // eta sqrt(R)
+  double viscous_si_ = 0.0;  // eta sqrt(R), viscosity times the root of the tip radius
 };
 
 }  // namespace afm::physics

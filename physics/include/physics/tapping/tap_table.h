@@ -13,7 +13,7 @@ namespace afm::physics {
 
 class TapSurface;
 
-// The jump down into the repulsive state, and the one back.
+// The jump down into the repulsive state, and the jump back.
 struct TapLoop {
   TapJump in, off;
 };
@@ -31,14 +31,14 @@ class TapTable {
   // A swing at rest: u = A cos(phi), v = A sin(phi).
   struct Rest {
     double u_m = 0, v_m = 0;
-    double lost_j = 0;        // in the sample, per swing
+    double lost_j = 0;        // energy lost in the sample per swing
     double peak_force_n = 0;  // largest force of the sample on the tip
     double mean_force_n = 0;  // mean force of the sample on the tip
   };
 
   TapTable(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever);
 
-  // The swing of a branch at this height; at the branch's end beyond it.
+  // The swing of a branch at this height; beyond the branch's end, the swing at that end.
   Rest at(bool repelled, double z_m) const noexcept;
 
   // The stable swings that the walk meets at this height, the smallest amplitude first.
@@ -69,7 +69,7 @@ class TapTable {
   TappingCurve walk_;
   std::vector<Node> attracted_, repelled_;  // nodes from the lowest Z up
   std::optional<TapLoop> loop_;
-  double falls_m_ = 0, leaves_m_ = 0;  // below: a swing falls into the repelled branch; above: it leaves it
+  double falls_m_ = 0, leaves_m_ = 0;  // heights at which a swing falls into the repulsive branch, leaves it
   Length lowest_;
 };
 

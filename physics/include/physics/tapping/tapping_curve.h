@@ -33,18 +33,18 @@ struct TapPoint {
   Length z;
   Branch branch = Branch::Approach;
   TapState state;
-  Length deflection;       // x0, mean
-  SwingAverages averages;  // energy lost: true
+  Length deflection;       // x0, mean deflection
+  SwingAverages averages;  // averages of the swing, including the true energy lost
   Energy cleveland;        // energy lost, inferred from amplitude and phase
-  bool repeats = true;     // false: not from one period to the next, so that the row is one of its periods
+  bool repeats = true;     // false: the swing differs from period to period, and the row shows one period
 };
 
 // A change between the states: a fold where one ends, or where the phase of a moving tip passes that of the free lever.
 struct TapJump {
   Branch branch = Branch::Approach;
-  Length z;         // place; for direct integration with steps, between both rows
-  Length z_before;  // the row or fold before it
-  Length z_after;   // the row or fold after it
+  Length z;         // Z of the jump; for direct integration with steps, between both rows
+  Length z_before;  // Z of the row or fold before the jump
+  Length z_after;   // Z of the row or fold after the jump
   TapState before;
   TapState after;
 };
@@ -52,16 +52,16 @@ struct TapJump {
 // A stable state off the path, at some heights.
 struct TapIsland {
   Length lowest_z, highest_z;  // range of the sampled heights
-  Length z;                    // height of the example, in the middle
+  Length z;                    // height of the example, in the middle of the range
   RestingTap example;
 };
 
 struct TappingCurve {
-  std::vector<TapPoint> points;  // approach, then retract; a fold is two points at its z
+  std::vector<TapPoint> points;  // approach, then retract; a fold is two points at its Z
   std::vector<TapJump> jumps;
-  std::vector<TapIsland> islands;  // only if averaged
-  Energy work_on_hand;             // by the mean force over the loop; positive: the drive feeds the hand
-  Area reduction_loop;  // loop integral of A0 - A over Z: negative if a push by it takes energy from the hand
+  std::vector<TapIsland> islands;  // islands; only found by averaging
+  Energy work_on_hand;             // work of the mean force over the loop; positive: the drive feeds the hand
+  Area reduction_loop;             // loop integral of A0 - A over Z; negative: a push by it takes energy from the hand
   // Height at which Newton's method lost an averaged swing that goes on beyond it, as it may over a contact far stiffer
   // than the lever, or of TapPath::only_at_rest. The curve ends there, without loops and islands; direct integration
   // has no such place.

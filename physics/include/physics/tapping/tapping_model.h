@@ -62,14 +62,14 @@ class TappingModel {
   // The response at Z after a straight path from the previous step's Z.
   TipResponse step(Length z) noexcept;
 
-  // For a start, a change of material or a dropout: zero force until Z is above both jumps.
+  // Resets the model at a start, a change of material or a dropout: no force until Z is above both jumps.
   void wait_for_lift() noexcept { phase_ = Phase::WaitForLift; }
 
   Phase phase() const noexcept { return phase_; }
   Length amplitude() const noexcept;
-  double phase_lag() const noexcept;                            // rad, behind the drive
-  Force push() const noexcept { return push_; }                 // zero while waiting
-  double slow_motion() const noexcept { return slow_motion_; }  // as in DynamicModel
+  double phase_lag() const noexcept;                            // lag behind the drive, rad
+  Force push() const noexcept { return push_; }                 // push felt by the hand; zero while waiting
+  double slow_motion() const noexcept { return slow_motion_; }  // slow-motion factor, as in DynamicModel
 
  private:
   void watch(Length before, Length after, double fraction, TipResponse& response) noexcept;
@@ -79,10 +79,10 @@ class TappingModel {
 
   std::shared_ptr<const LawTables> tables_;
   std::unique_ptr<TapEnvelope> envelope_;
-  double angle_ = 0;  // w0 t of a step
+  double angle_ = 0;  // angle of a step, in w0 t
   double slow_motion_ = 1;
   Phase phase_ = Phase::WaitForLift;
-  Length floor_;  // lowest base that moves the swing, LawTables::pressed_to
+  Length floor_;  // lowest base that still changes the swing, LawTables::pressed_to
   Length previous_z_, crossed_z_;
   Force push_, previous_mean_, older_mean_;
   double previous_attraction_ = 0, crossed_fraction_ = 1;

@@ -15,18 +15,18 @@ namespace afm::physics {
 
 // Result of one swing, by direct integration.
 struct DirectSwing {
-  TapState state;                        // first harmonic
-  Length deflection;                     // x0, mean
+  TapState state;                        // amplitude and phase of the first harmonic
+  Length deflection;                     // x0, mean deflection
   SwingAverages averages;                // <F>, the virial of the first harmonic, energy lost, peak of F, ...
-  Energy full_virial;                    // <F x>
-  Area mean_square;                      // <x^2>
-  double mean_square_velocity_si = 0.0;  // <x'^2>, m^2/s^2
-  std::array<Length, 6> harmonics{};     // A_n; 0 is |x0|
+  Energy full_virial;                    // <F x>, virial with all harmonics
+  Area mean_square;                      // <x^2>, mean square deflection
+  double mean_square_velocity_si = 0.0;  // <x'^2>, mean square velocity, m^2/s^2
+  std::array<Length, 6> harmonics{};     // A_n, amplitudes of the harmonics; [0] is |x0|
   double change = 0.0;  // largest change of the first harmonic from one swing to the next in settle(), as a share of A0
 };
 
-// That swing as a resting one, with its lag between 0 and 360 degrees, so that none jumps at 180; stable if it repeats,
-// to a thousandth of A0.
+// A direct swing as a resting one, with its lag between 0 and 360 degrees, so that none jumps at 180; stable if it
+// repeats to a thousandth of A0.
 RestingTap resting_tap(const DirectSwing& swing) noexcept;
 
 // A tapping tip as a point mass, integrated directly: x = p + y, with p the free swing, which is known, and y a lever
@@ -41,14 +41,14 @@ RestingTap resting_tap(const DirectSwing& swing) noexcept;
 // One thread. Only the constructor allocates.
 class TappingOscillator {
  public:
-  static constexpr int kUsualSteps = 128;  // a swing
-  static constexpr int kFineSteps = 16;    // a step near the sample
+  static constexpr int kUsualSteps = 128;  // steps in a swing
+  static constexpr int kFineSteps = 16;    // fine steps in a step near the sample
 
   // `least_steps` a swing far from the sample, at least 8; more if the contact is stiff.
   TappingOscillator(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                     int least_steps = kUsualSteps);
 
-  // Begins a swing at the drive's angle of zero: with the free one, {A0, free_phase}, or from rest, {}.
+  // Begins a swing at the drive's angle of zero: in the free state, {A0, free_phase}, or from rest, {}.
   void place(Length z, const TapState& state) noexcept;
 
   // Moves the base evenly by this much in each later swing.
@@ -71,10 +71,10 @@ class TappingOscillator {
  private:
   // Free motion of y over a step, and half of its kick.
   struct Pace {
-    double kick;  // m/s per newton
+    double kick;  // velocity change by half a kick, m/s per newton
     double xx, xv, vx, vv;
     double weight;  // half of the step's share in the swing
-    double rise;    // by which the base moves
+    double rise;    // rise of the base in a step
   };
   struct Sums;
   Pace pace(double steps_a_swing) const;
@@ -91,7 +91,7 @@ class TappingOscillator {
   DrivenLever lever_;
   std::size_t steps_ = 0;
   std::vector<double> cosine_, sine_;    // cosine and sine of the drive's angle at each fine step of a swing
-  std::vector<double> free_x_, free_v_;  // p and p'
+  std::vector<double> free_x_, free_v_;  // free swing p and its velocity p'
   double mass_;
   double near_;  // height below which steps are fine
   Pace coarse_, fine_;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kMostMoleculesPerS = 1e12;
 constexpr double kLeastFootprintM2 = 1e-21, kMostFootprintM2 = 1e-16;
-constexpr int kPlacesAlong = 64, kPlacesAcross = 2048;  // at which a width is taken
-constexpr double kSpareDistance = 1e-6;                 // squares
+constexpr int kPlacesAlong = 64, kPlacesAcross = 2048;  // number of positions along and across a line for its width
+constexpr double kSpareDistance = 1e-6;                 // margin of a distance for rounding, in squares
 
 double distance2(int columns, int rows) { return 1.0 * columns * columns + 1.0 * rows * rows; }
 

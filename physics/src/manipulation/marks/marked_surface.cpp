@@ -13,14 +13,14 @@
 namespace afm::physics {
 namespace {
 
-constexpr int kMargin = MarkedSurface::kReach + 1;  // squares beyond the places of a tip
-constexpr double kWidestTip = 1.75;                 // radius of the tip at z = 0 where it stops, over R_t
-constexpr double kNarrowestRidge = 1.5;             // squares
-constexpr int kAlong = 32;                          // places along a groove at which its section is taken
+constexpr int kMargin = MarkedSurface::kReach + 1;  // margin around the positions of a tip, in squares
+constexpr double kWidestTip = 1.75;                 // radius of the tip at z = 0 at its lowest height, over R_t
+constexpr double kNarrowestRidge = 1.5;             // smallest radius of a contact for its ridge, in squares
+constexpr int kAlong = 32;                          // positions along a groove at which its section is measured
 constexpr double kRidgeReach = 2.24;                // farthest place of a ridge behind a tip, over the contact's radius
-constexpr double kDoubt = 0.1;                      // squares: difference of an apex from the expected one
+constexpr double kDoubt = 0.1;                      // allowed difference of an apex from the expected one, in squares
 constexpr double kDoubtGrowth = 8.0;
-constexpr int kPlacesPerSquare = 8;           // places of the tip's profile, over r^2
+constexpr int kPlacesPerSquare = 8;           // nodes of the tip's profile per square, over r^2
 constexpr double kBelowProfile = 1.0 - 1e-3;  // share of a bound that the profile's straight lines do not cross
 
 std::size_t squares_over(double length_m, double spacing_m) {
@@ -30,7 +30,7 @@ std::size_t squares_over(double length_m, double spacing_m) {
 // The height at which a lever rests on squares that bend it by `bend_m` each, the higher ones first: the least one at
 // which it is bent by all that begin to bear above it. Uses up the heights at which they begin.
 double resting_height(double base_m, double bend_m, std::span<double> begins_m) noexcept {
-  std::size_t bearing = 0;  // squares above those that are left
+  std::size_t bearing = 0;  // number of squares above the remaining ones
   while (!begins_m.empty()) {
     const double pivot_m = begins_m[begins_m.size() / 2];
     std::size_t above = 0, equal = 0;
@@ -42,7 +42,7 @@ double resting_height(double base_m, double bend_m, std::span<double> begins_m) 
     if (!rests_above) {
       bearing += above + equal;
       if (!(base_m + bend_m * static_cast<double>(bearing) < pivot_m))
-        return pivot_m;  // the last of them bears in part
+        return pivot_m;  // the last of these squares bears a part
     }
     double* kept_m = begins_m.data();
     std::size_t left = 0;
@@ -316,7 +316,7 @@ GrooveSection MarkedSurface::section(const Sideways<Length>& from, const Sideway
   const Length length = magnitude(way);
   if (!(length.si > 0.0)) return {};
   const Sideways<double> across{-(way.y / length), way.x / length};
-  std::array<double, 4 * kReach + 1> mean_m{};  // at half a square from each other
+  std::array<double, 4 * kReach + 1> mean_m{};  // mean heights at a distance of half a square
   const double step_m = 0.5 * spacing_m_;
   for (std::size_t i = 0; i < mean_m.size(); ++i) {
     const double aside_m = step_m * (static_cast<double>(i) - 2.0 * kReach);

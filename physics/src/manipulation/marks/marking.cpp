@@ -16,11 +16,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSteepest = 0.08, kWidestCone = 1.05;  // half angle in radians, 4.6 and 60 degrees
-constexpr double kStiffest = 5.0;                       // least E* over H
+constexpr double kSteepest = 0.08, kWidestCone = 1.05;  // limits of the half angle in radians, 4.6 and 60 degrees
+constexpr double kStiffest = 5.0;                       // smallest ratio of E* to H
 constexpr double kSpringBack = 0.75;
-constexpr double kConstraint = 3.0;  // H/Y, Tabor
-constexpr double kYields = 1.6;      // mean pressure over Y at which a ball begins to mark
+constexpr double kConstraint = 3.0;  // Tabor's constraint factor H/Y
+constexpr double kYields = 1.6;      // mean pressure over Y at which a ball begins to leave a mark
 
 Length depth_of(const SphereCone& tip, Area area) { return TipOutline(tip).height_at(Length(std::sqrt(area.si / pi))); }
 

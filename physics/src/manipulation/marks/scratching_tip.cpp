@@ -17,13 +17,13 @@ constexpr int kLooksOfATick = 16;
 constexpr int kLooksOnAWay = 5;
 constexpr int kLooksOfALift = 3;
 constexpr int kFineSubSteps = 4;
-constexpr double kLongestWay = 0.5;    // squares: of a step, and of the base in a sub-step
-constexpr double kFineWay = 0.25;      // squares: of the base in a sub-step, if so many fine sub-steps suffice
-constexpr double kShortestWay = 0.02;  // squares: the first look of a way is no nearer
-constexpr double kWayGrowth = 4.0;     // most of a look over the one before
-constexpr double kWorth = 1e-4;        // gain over the pull of the lever times a square for which no look is worth it
-constexpr double kBalanced = 3e-3;     // slope over the pull of the lever at which the tip rests
-constexpr double kInside = 0.1;        // least distance of a look from both ends, over that between them
+constexpr double kLongestWay = 0.5;    // longest step, and motion of the base in a sub-step, in squares
+constexpr double kFineWay = 0.25;      // motion of the base in a fine sub-step, in squares, if so many suffice
+constexpr double kShortestWay = 0.02;  // distance of the first evaluation of a way, in squares
+constexpr double kWayGrowth = 4.0;     // largest ratio of the distances of two successive evaluations
+constexpr double kWorth = 1e-4;        // gain over the pull times a square that is worth no further evaluation
+constexpr double kBalanced = 3e-3;     // slope over the pull of the lever below which the tip rests
+constexpr double kInside = 0.1;        // smallest distance of an evaluation from both ends, over that between them
 
 }  // namespace
 

@@ -11,9 +11,9 @@
 namespace afm::physics {
 namespace {
 
-constexpr double kLookReach = 3.0;  // in footprint radii, to each side
+constexpr double kLookReach = 3.0;  // half size of a look's box, in footprint radii
 constexpr double kRoom = 2.0 * kLookReach;
-constexpr double kMostPixels = 512.0;  // on a side
+constexpr double kMostPixels = 512.0;  // largest number of pixels per side
 constexpr double kHalfLookPixels = 0.5 * static_cast<double>(kLookLines - 1);
 
 Outline outline_at(const ParticlePlace& place, double half_m) {
