@@ -38,7 +38,7 @@ std::string other_file(std::string_view text) {
   return fmt::format("it is {}; {}", kind->name, core::remedy_of(kind->role));
 }
 
-// The text behind a string that begins at `at`; the text's end if it does not end.
+// Text after a string that begins at `at`; the end of the text if the string does not end.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string long_quote(3, quote);
@@ -80,7 +80,7 @@ std::optional<std::size_t> line_of_too_long_key(std::string_view text) {
   return std::nullopt;
 }
 
-// The line of a text with a character that could command a terminal or break a line of a curve file.
+// Line of a text with a character that could command a terminal or break a line of a curve file.
 std::optional<std::size_t> line_of_control_character(const toml::node& node) {
   if (const toml::value<std::string>* text = node.as_string()) {
     if (core::printable_line(text->get()) != text->get()) return node.source().begin.line;

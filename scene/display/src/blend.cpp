@@ -7,7 +7,7 @@ namespace afm::scene {
 
 namespace {
 
-// Smooth step from 0 to 1, whose mirror image adds up to 1 with it.
+// Smooth step from 0 to 1; the step and its mirror image add up to 1.
 double risen(double distance, double begin, double width) {
   if (!(width > 0.0)) return 1.0;
   const double t = std::clamp((distance - begin) / width, 0.0, 1.0);

@@ -24,7 +24,7 @@ std::string key_of(ScreenEdge edge) { return "blend_" + std::string(kScreenEdgeN
 
 // Screen in its plane, in metres from the lower left corner of the plane's first screen; y up.
 struct PlaneBox {
-  std::size_t plane = 0;  // index of that first screen
+  std::size_t plane = 0;  // index of the plane's first screen
   glm::dvec2 low{0.0}, high{0.0};
   double turned_m = 0;  // height of its right end above its left end
 };
@@ -64,7 +64,7 @@ std::optional<double> overlap_m(const PlaneBox& a, const PlaneBox& b, ScreenEdge
 // All overlaps at one edge of a screen.
 struct EdgeOverlap {
   std::vector<std::size_t> screens;
-  std::size_t shallowest = 0;  // index of the one with the smallest depth
+  std::size_t shallowest = 0;  // index of the screen with the smallest depth
   double depth_m = 0;          // smallest depth
 };
 
@@ -206,7 +206,7 @@ std::optional<BlendFault> check_group(const std::vector<Screen>& screens, const 
   return gap;
 }
 
-// Output of a screen that is seen together with another output, by the same eye.
+// Output of a screen that is seen together with another one, by the same eye.
 const Output* shown_with(const Wall& wall, std::size_t screen, const Output& output) {
   if (screen == output.screen) return &output;
   const auto found = std::find_if(wall.outputs.begin(), wall.outputs.end(), [&](const Output& other) {

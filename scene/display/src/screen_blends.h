@@ -13,7 +13,7 @@ namespace afm::scene {
 // Key of a wall file with an impossible value.
 struct BlendFault {
   enum class Table { Screen, Output } table;
-  std::size_t index;  // index of the table
+  std::size_t index;  // index of the table in the file
   std::string key;
   std::string what;
 };

@@ -18,14 +18,14 @@ namespace afm::scene {
 namespace {
 
 constexpr double kLongestEdgeM = 60.0;     // the largest screens of open-air stages
-constexpr double kFarthestHeadM = 60.0;    // a wall of 3 m fills three degrees there
-constexpr double kSmallestExtentM = 0.03;  // a watch
-constexpr double kNearestHeadM = 0.1;      // nearer than anybody can focus
+constexpr double kFarthestHeadM = 60.0;    // distance at which a wall of 3 m fills three degrees
+constexpr double kSmallestExtentM = 0.03;  // size of a watch
+constexpr double kNearestHeadM = 0.1;      // distance nearer than anybody can focus
 constexpr double kGrazing = 0.17;          // sine of ten degrees
 constexpr double kFlat = 0.95;             // sine of 72 degrees: floors, ceilings and tables within 18 degrees
 constexpr double kUpright = 0.866;         // cosine of 30 degrees
 constexpr double kFacing = 0.26;           // cosine of 75 degrees between the lines of the eyes and of the screen
-constexpr double kBelowFloorM = 0.5;       // origin of a room at the height of a seat
+constexpr double kBelowFloorM = 0.5;       // depth of the floor in a room whose origin is at the height of a seat
 constexpr double kMostDark = 0.2;          // share of a projector outside its mesh
 constexpr double kMostLost = 0.2;          // share of a picture that a keystone puts outside the projector
 constexpr double kRounding = 1e-12;        // error of a homography that was inverted twice
@@ -36,7 +36,7 @@ glm::dvec3 right_of(const Screen& screen) { return glm::normalize(screen.lower_r
 glm::dvec3 up_of(const Screen& screen) { return glm::cross(screen.normal(), right_of(screen)); }
 bool is_flat(const Screen& screen) { return std::abs(screen.normal().y) > kFlat; }
 
-// Axis that is nearest to the direction, and the turn that makes it the room's +y.
+// Axis nearest to the direction, and the rotation that makes it the room's +y.
 struct UpwardAxis {
   std::string_view name, turned;
 };
@@ -115,7 +115,7 @@ std::string quaternion_text(const glm::dquat& turn) {
   return fmt::format("[{:g}, {:g}, {:g}, {:g}]", rounded(q.x), rounded(q.y), rounded(q.z), rounded(q.w));
 }
 
-// Share of the line between the eyes that lies along the screen, negative if the eyes are exchanged in front of it.
+// Component of the line between the eyes along the screen, negative if the eyes are exchanged in front of it.
 double line_of_eyes_along(const Screen& screen, const glm::dquat& room_from_head) {
   const glm::dvec3 right = room_from_head * glm::dvec3(1.0, 0.0, 0.0);
   if (!is_flat(screen)) return glm::dot(right, right_of(screen));
@@ -146,7 +146,7 @@ HeadTurn turn_of(const Wall& wall, const HeadPose& head) {
   return towards ? HeadTurn::Good : HeadTurn::Away;
 }
 
-// The orientation that was probably meant: the same numbers with w first, or straight towards an upright screen.
+// Orientation that was probably meant: the same numbers with w first, or straight towards an upright screen.
 std::string turn_that_fits(const Wall& wall, const Viewer& viewer) {
   const glm::dquat& read = viewer.sweet_spot.room_from_head;
   HeadPose other = viewer.sweet_spot;
@@ -204,7 +204,7 @@ void doubt_distance(const Wall& wall, const Viewer& viewer, std::vector<std::str
   }
 }
 
-// A head far beside every screen sees strips of them.
+// Reports a head so far beside all screens that it sees only strips of them.
 void doubt_side(const Wall& wall, const Viewer& viewer, std::vector<std::string>& doubts) {
   const glm::dvec3& head_m = viewer.sweet_spot.position_m;
   double best = 0.0;
@@ -260,7 +260,7 @@ void doubt_mesh(const Output& output, std::vector<std::string>& doubts) {
                                output.name, share * 100.0, fix));
 }
 
-// Share of the picture that a keystone puts outside the output.
+// Fraction of the picture that a keystone puts outside the output.
 double lost_share(const glm::dmat3& output_from_picture) {
   constexpr int kSteps = 24;
   int lost = 0;
@@ -274,7 +274,7 @@ double lost_share(const glm::dmat3& output_from_picture) {
   return double(lost) / (kSteps * kSteps);
 }
 
-// A homography that was measured in pixels, as OpenCV gives it, puts the picture outside the projector.
+// Reports a homography measured in pixels, as OpenCV returns it: it puts the picture outside the projector.
 void doubt_keystone(const Output& output, std::vector<std::string>& doubts) {
   const glm::dmat3 keystone = glm::inverse(output.picture_from_output);
   const double lost = lost_share(keystone);

@@ -32,7 +32,7 @@ constexpr double kLargestEyeFromHeadM = 0.5;
 constexpr double kWidestBlendM = 20.0;
 constexpr int kLargestPixel = 65536;
 constexpr double kSmallestGamma = 1.0, kLargestGamma = 4.0;
-constexpr double kLargestBlack = 0.05;  // projector with a contrast of 20:1
+constexpr double kLargestBlack = 0.05;  // black of a projector with a contrast of 20:1
 
 constexpr std::array<std::string_view, kScreenEdgeNames.size()> kBlendKeys{"blend_left", "blend_top", "blend_right",
                                                                            "blend_bottom"};
@@ -46,7 +46,7 @@ double read_length_m(const TomlTable& table, std::string_view key, double least_
   return value_m;
 }
 
-// Pixels: [x, y, width, height].
+// Reads pixels: [x, y, width, height].
 PixelRect read_rect(const TomlTable& table, std::string_view key) {
   const auto v = table.numbers<4>(key, "four whole numbers [x, y, width, height] in pixels");
   for (const double value : v) {
@@ -76,7 +76,7 @@ Screen read_screen(const TomlTable& table, EdgeWidths& widths_m) {
   return screen;
 }
 
-// The path is relative to the wall file.
+// Reads the mesh, whose path is relative to the wall file.
 std::shared_ptr<const WarpMesh> read_warp_mesh(const TomlTable& table, const Output& output,
                                                const std::string& wall_path) {
   if (table.has("homography")) {
@@ -103,7 +103,7 @@ glm::dmat3 read_keystone(const TomlTable& table, std::string_view key) {
   for (const glm::dvec2 corner : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
     nearest = std::min(nearest, (output_from_picture * glm::dvec3(corner, 1.0)).z);
   }
-  constexpr double kLeastOfLargest = 1e-3;  // below this ratio the picture is a line, or its edge infinitely far away
+  constexpr double kLeastOfLargest = 1e-3;  // ratio below which the picture is a line, or its edge infinitely far away
   const double largest =
       std::abs(*std::max_element(v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); }));
   if (!(size > kLeastOfLargest * largest) || !(nearest > kLeastOfLargest * largest)) {
@@ -142,7 +142,7 @@ std::size_t read_name_of(const std::vector<Named>& all, const TomlTable& table, 
   return static_cast<std::size_t>(found - all.begin());
 }
 
-// The number of a key that may be absent.
+// Number of a key that may be absent.
 std::optional<double> number_if_given(const TomlTable& table, std::string_view key, double least, double most,
                                       const char* meaning) {
   return table.has(key) ? std::optional(table.number(key, least, most, meaning)) : std::nullopt;
@@ -190,7 +190,7 @@ Output read_output(const TomlTable& table, const Wall& wall, const std::string& 
   return output;
 }
 
-// Checks what two outputs may not share, and the pair that dual needs.
+// Checks properties that two outputs may not share, and the pair that mode dual needs.
 void check_together(const Output& output, const std::vector<Output>& earlier, const TomlTable& table) {
   for (const Output& other : earlier) {
     if (other.name == output.name) table.refuse("name", fmt::format("\"{}\" is used twice", output.name));
@@ -313,7 +313,7 @@ Wall read_wall(const TomlTable& root, const std::string& path) {
 
 // True for a ParaView configuration under another name; no TOML file begins like that.
 bool begins_like_xml(const std::string& path) {
-  const auto beginning = core::read_beginning(path, 256);  // may begin with blank lines
+  const auto beginning = core::read_beginning(path, 256);  // beginning that may contain blank lines
   if (!beginning) return false;
   const std::size_t first = beginning->find_first_not_of(" \t\r\n");
   return first != std::string::npos && (*beginning)[first] == '<';

@@ -64,11 +64,11 @@ glm::dvec3 corner(const pugi::xml_node& machine, const char* name) {
   return {v[0], v[1], v[2]};
 }
 
-// WIDTHxHEIGHT+X+Y, as X writes it.
+// Reads WIDTHxHEIGHT+X+Y, the form used by X.
 std::optional<PixelRect> read_geometry(std::string_view text) {
   std::array<int, 4> v{};
   for (std::size_t i = 0; i < v.size(); ++i) {
-    constexpr std::string_view kBefore = " x++";  // separator before each number, none before the first
+    constexpr std::string_view kBefore = " x++";  // separators before each number, none before the first
     if (i > 0 && (text.empty() || text.front() != kBefore.at(i))) return std::nullopt;
     if (i > 0) text.remove_prefix(1);
     const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), v.at(i));
@@ -98,7 +98,7 @@ struct Machine {
   Screen screen;
   const StereoTypeRow* stereo = nullptr;
   std::optional<PixelRect> rect;
-  std::string viewer;                  // id
+  std::string viewer;                  // id of the viewer
   std::optional<std::size_t> partner;  // machine of the other eye on the same screen
   std::set<std::string_view> used{"Name", "LowerLeft", "LowerRight", "UpperRight"};
 };
@@ -153,7 +153,7 @@ bool same_corners(const Screen& a, const Screen& b) {
          glm::distance(a.upper_left, b.upper_left) < kSameM;
 }
 
-// A whole configuration, from the root down.
+// Reader of a whole configuration, from the root down.
 class Configuration {
  public:
   explicit Configuration(const pugi::xml_node& root) : root_(root) { visit(root, 0); }

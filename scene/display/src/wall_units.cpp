@@ -34,7 +34,7 @@ constexpr std::array kOtherUnits{LengthUnit{"millimetres", 1e-3, 0.0}, LengthUni
                                  LengthUnit{"inches", 0.0254, 0.0}, LengthUnit{"feet", 0.3048, 0.0},
                                  LengthUnit{"decimetres", 0.1, 5.0}};
 constexpr double kPenaltyOfOneInMetres = 0.7, kPenaltyOfTwoUnits = 2.5;
-constexpr double kPenaltyOfAnOddHead = 6.0;  // behind a screen or very high: axes that are wrong, too
+constexpr double kPenaltyOfAnOddHead = 6.0;  // head behind a screen or very high: the axes are wrong, too
 constexpr double kNearlyAsGood = 3.0;
 constexpr std::size_t kMostReadings = 3;
 
@@ -111,7 +111,7 @@ WallLengths lengths_of(const Wall& wall, const Viewer& viewer) {
     }
     lengths.distance_m = std::min(lengths.distance_m, glm::dot(head_m - screen.lower_left, screen.normal()));
   }
-  constexpr double kOnFloor = -0.05;  // share of the wall's extent
+  constexpr double kOnFloor = -0.05;  // fraction of the wall's extent
   if (lowest_m >= kOnFloor * lengths.extent_m) lengths.head_height_m = std::max(head_m.y, 0.0);
   return lengths;
 }

@@ -7,23 +7,23 @@
 
 namespace afm::scene {
 
-// The lengths by which a unit is doubted, for one viewer.
+// Lengths that reveal a wrong unit, for one viewer.
 struct WallLengths {
-  double extent_m = 0;       // between the farthest corners of all screens
-  double distance_m = 0;     // from the head to the nearest screen's plane; negative behind one
-  double head_height_m = 0;  // above the room's floor; 0 if the screens reach below y = 0 and the floor is unknown
+  double extent_m = 0;       // largest distance between corners of all screens
+  double distance_m = 0;     // distance from the head to the plane of the nearest screen; negative behind one
+  double head_height_m = 0;  // height above the room's floor; 0 if unknown: screens below y = 0
 };
 WallLengths lengths_of(const Wall& wall, const Viewer& viewer);
 
-// Farther than any viewer of a wall of that size: the picture would fill less than three degrees.
+// True if the viewer is so far away that the picture would fill less than three degrees.
 bool too_far(const WallLengths& lengths);
-// Higher than the eyes of a standing person on any usual platform.
+// True if the head is higher than the eyes of a standing person on any usual platform.
 bool too_high(const WallLengths& lengths);
 
-// Least distance of a head from an upright screen, in widths of the screen.
+// Smallest distance of a head from an upright screen, in widths of the screen.
 constexpr double kLeastWidths = 0.1;
 
-// Names the units in which the wall or the viewer's place may be written, the likeliest first, such as "lengths are in
+// Units in which the wall or the viewer's place may have been written, the likeliest first, such as "lengths are in
 // metres: as millimetres, ..."; empty if none fits.
 std::string unit_that_fits(const Wall& wall, const Viewer& viewer);
 

@@ -52,7 +52,7 @@ std::array<std::optional<MeshTriangle>, 2> triangles_of(const WarpMesh& mesh, st
   return {MeshTriangle{{first, right, opposite}}, MeshTriangle{{opposite, below, first}}};
 }
 
-// True if the mesh shows the line of that number: about kMostLines of them, and the last.
+// True if the mesh shows the line number `line`: about kMostLines lines, including the last.
 bool is_shown_line(std::uint32_t line, std::uint32_t lines) {
   const std::uint32_t step = (lines - 1 + kMostLines - 1) / kMostLines;
   return line % step == 0 || line + 1 == lines;

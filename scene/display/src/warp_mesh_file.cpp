@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::size_t kLargestMeshFile = 64U << 20U;
 constexpr double kFarthest = 10.0;      // from the centre of the output, whose upper edge is at distance 1
-constexpr double kFarthestTexel = 4.0;  // from the picture, in multiples of its size
+constexpr double kFarthestTexel = 4.0;  // largest distance from the picture, in multiples of its size
 constexpr double kSmallestAspect = 0.1, kLargestAspect = 10.0;
-constexpr double kLeastArea = 1e-12;  // smaller triangles are degenerate; the output has area 1
+constexpr double kLeastArea = 1e-12;  // area below which triangles are degenerate; the output has area 1
 constexpr double kMostDrawn = 64.0;  // summed area of all bounding rectangles, which limits the time for drawing a mesh
 
 struct MeshFault {

@@ -7,11 +7,11 @@
 
 namespace afm::scene {
 
-// Names a file that is no glTF by its bytes, with the remedy: "it is an
+// Name of a file that is not glTF, found from its bytes, with the remedy: "it is an
 // STL file; export glTF 2.0 (.glb) instead". Empty for everything else.
 std::string foreign_kind(std::span<const std::uint8_t> bytes);
 
-// The same for a file that is neither PNG nor JPEG: "a KTX2 image". Empty if unknown.
+// Same for a file that is neither PNG nor JPEG: "a KTX2 image". Empty if unknown.
 std::string foreign_image(std::span<const std::uint8_t> bytes);
 
 }  // namespace afm::scene

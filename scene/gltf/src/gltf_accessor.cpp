@@ -37,7 +37,7 @@ class AccessorReader {
     accessor_.normalized = source_.normalized;
     if (accessor_.normalized && size_of(accessor_.type) == 4) fail("normalises a type other than 8 or 16-bit integers");
     accessor_.count = source_.count;
-    if (accessor_.count == 0) return accessor_;  // refused where it is used
+    if (accessor_.count == 0) return accessor_;  // empty accessor, refused where it is used
     const std::size_t size = element_size(accessor_);
     accessor_.stride = size;
     if (source_.bufferView >= 0) {

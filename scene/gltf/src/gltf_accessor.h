@@ -9,7 +9,7 @@
 
 namespace afm::scene {
 
-// Elements of an accessor that replace those of its view.
+// Elements that replace some of an accessor's own.
 struct SparseValues {
   std::size_t count = 0;
   int index_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
@@ -21,10 +21,10 @@ struct SparseValues {
 struct Accessor {
   std::size_t count = 0;
   int components = 1;
-  int type = TINYGLTF_COMPONENT_TYPE_FLOAT;  // component type
+  int type = TINYGLTF_COMPONENT_TYPE_FLOAT;  // type of a component
   bool normalized = false;
   bool matrix = false;
-  std::span<const std::uint8_t> bytes;  // empty: all zeros
+  std::span<const std::uint8_t> bytes;  // elements in order; empty: all zeros
   std::size_t stride = 0;
   std::optional<SparseValues> sparse;
 

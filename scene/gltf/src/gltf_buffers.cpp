@@ -69,7 +69,7 @@ GltfBuffers::GltfBuffers(const tinygltf::Model& model) {
   for (std::size_t i = 0; i < model.bufferViews.size(); ++i) {
     const tinygltf::BufferView& view = model.bufferViews[i];
     if (view.byteLength == 0) {
-      views_.emplace_back();  // refused where it is used
+      views_.emplace_back();  // empty view, refused where it is used
     } else if (const auto* compression = find_extension(view.extensions, "EXT_meshopt_compression")) {
       views_.push_back(decompress(model, i, *compression));
     } else {

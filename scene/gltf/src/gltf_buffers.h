@@ -12,7 +12,7 @@ namespace afm::scene {
 // Part of a buffer, within its bounds, after decompression.
 struct BufferView {
   std::span<const std::uint8_t> bytes;
-  std::size_t stride = 0;  // 0: packed
+  std::size_t stride = 0;  // distance between elements in bytes; 0: packed
 };
 
 // Checked views of a model's buffers. `model` must outlive it.

@@ -232,7 +232,7 @@ class Checker {
 }  // namespace
 
 void check_gltf_header(Json& document) {
-  GltfWarnings none;  // a header has no numbers
+  GltfWarnings none;  // unused, since a header has no numbers
   Checker(document, none).check_members(document, gltf_header(), {});
 }
 

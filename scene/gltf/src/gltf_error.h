@@ -11,7 +11,7 @@ struct GltfError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A side file that is not there or must not be read. A model is drawn without such an image.
+// A side file that is missing or must not be read. If it is an image, the model is drawn without it.
 struct GltfMissingFile : GltfError {
   using GltfError::GltfError;
 };

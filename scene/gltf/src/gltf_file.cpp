@@ -24,7 +24,7 @@ constexpr int kDeepestNesting = 64;
 // Limit on the values in the text; each takes up to about a hundred bytes in a tree.
 constexpr std::uint64_t kMostValues = 4'000'000;
 
-// Reads a whole plain file of at most `most_bytes`.
+// Reads a plain file of at most `most_bytes`.
 Bytes read_plain_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -73,7 +73,7 @@ void check_text(std::string_view text) {
   }
 }
 
-// Some exporters write null for a member without a value; other viewers take it as absent. Extras stay as they are.
+// Removes nulls, which some exporters write for a member without a value. Other viewers ignore them. Extras stay.
 void leave_out_nulls(Json& value) {
   if (value.is_object()) {
     for (auto member = value.begin(); member != value.end();) {
@@ -97,7 +97,7 @@ Json parse_text(std::string_view text) {
     return document;
   } catch (const Json::parse_error& error) {
     throw GltfError(fmt::format("its JSON is invalid at byte {}; export it again", error.byte));
-  } catch (const Json::exception&) {  // a number too large for double
+  } catch (const Json::exception&) {  // number too large for a double
     throw GltfError("its JSON is invalid: a number is out of range; export it again");
   }
 }
@@ -112,7 +112,7 @@ bool is_binary(const Bytes& bytes) { return bytes.size() >= 4 && std::memcmp(byt
 
 struct Chunks {
   std::string_view text;
-  std::optional<std::pair<std::size_t, std::size_t>> binary;  // offset and length
+  std::optional<std::pair<std::size_t, std::size_t>> binary;  // offset and length of the binary chunk
 };
 
 // Chunks of a binary glTF file whose header agrees with its size (glTF 2.0, section 4.4).
@@ -145,7 +145,7 @@ Chunks split(const Bytes& bytes) {
   return chunks;
 }
 
-// For programs of Windows, which write backslashes.
+// Name with slashes, for programs on Windows, which write backslashes.
 std::string with_slashes(std::string name) {
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;

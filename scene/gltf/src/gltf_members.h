@@ -28,7 +28,7 @@ constexpr GltfMember object(std::string_view name, Members members) {
   return {name, Kind::Object, 0, 0, {}, {}, members};
 }
 constexpr GltfMember accessors(std::string_view name) { return {name, Kind::Accessors}; }
-// A factor that is off by 1 % of its range of 1 is drawn as its limit.
+// Largest overshoot of a factor in 0 to 1 that is drawn as the limit.
 inline constexpr double kRounding = 0.01;
 constexpr GltfMember share(std::string_view name) { return number(name, 0, 1).rounded(kRounding); }
 constexpr GltfMember positive(std::string_view name, double high = kLargest) {

@@ -170,7 +170,7 @@ std::span<const GltfMember> gltf_document() {
 }
 
 std::set<std::string_view> gltf_extensions() {
-  std::set<std::string_view> names{"KHR_mesh_quantization"};  // allows more types, and has no object
+  std::set<std::string_view> names{"KHR_mesh_quantization"};  // extension without an object; it allows more types
   collect_extensions(gltf_document(), names);
   return names;
 }

@@ -35,12 +35,12 @@ inline constexpr std::size_t kGltfLists = 14;
 struct GltfMember {
   enum class Kind {
     Text,
-    Choice,     // one of `choices`, separated by spaces; a text, or an integer
+    Choice,     // one of `choices`, separated by spaces; text or integer
     Flag,       // true or false
     Number,     // finite, from `low` to `high`
     Whole,      // integer from `low` to `high`
     Index,      // existing element of `into`
-    Object,     // with `members`
+    Object,     // object with `members`
     Accessors,  // object whose members, of any name, are indices of accessors
     Numbers,    // object whose members, of any name, are integers up to `high`
   };
@@ -58,8 +58,8 @@ struct GltfMember {
   std::size_t most_elements = 0;
   std::string_view needs{};   // required member of the same object
   std::string_view bars{};    // excluded members of the same object, separated by spaces
-  double slack = 0.0;         // distance beyond `low` and `high` within which a number becomes the limit, with a note
-  bool clamps_above = false;  // replacement of any number above `high` by it, with a note
+  double slack = 0.0;         // overshoot of `low` or `high` up to which a number becomes the limit, with a note
+  bool clamps_above = false;  // true: any number above `high` becomes `high`, with a note
 
   constexpr GltfMember required() const {
     GltfMember copy = *this;
@@ -76,7 +76,7 @@ struct GltfMember {
     copy.bars = beside;
     return copy;
   }
-  // For exporters that round, or convert from float.
+  // Tolerance for exporters that round, or convert from float.
   constexpr GltfMember rounded(double distance) const {
     GltfMember copy = *this;
     copy.slack = distance;
@@ -87,7 +87,7 @@ struct GltfMember {
     copy.clamps_above = true;
     return copy;
   }
-  // List of such values.
+  // List of values of this kind.
   constexpr GltfMember list(std::size_t least, std::size_t most) const {
     GltfMember copy = *this;
     copy.is_list = true;

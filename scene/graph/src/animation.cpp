@@ -28,7 +28,7 @@ std::size_t value_at(const Track& track, std::size_t key) {
   return track.interpolation == Interpolation::CubicSpline ? (3 * key + 1) * track.width : key * track.width;
 }
 
-// glTF 2.0, appendix C.5
+// Cubic spline of glTF 2.0, appendix C.5.
 float hermite(const Track& track, const Place& place, std::size_t i) {
   const float t = place.along, t2 = t * t, t3 = t2 * t;
   const std::size_t from = value_at(track, place.before) + i, to = value_at(track, place.after) + i;

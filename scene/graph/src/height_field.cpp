@@ -75,7 +75,7 @@ std::vector<Triangle> triangles_below(const Scene& scene, NodeIndex root) {
 // Raises the field to the triangle where the triangle is above it.
 void raise_to(const Triangle& t, double half_m, SharedHeightField& field) {
   const double area = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
-  if (area == 0.0) return;  // seen edge-on from above
+  if (area == 0.0) return;  // triangle seen edge-on from above
   const auto index = [&](double place_m, double rounding) {
     return static_cast<std::size_t>(
         std::clamp(std::floor((place_m + half_m) / field.spacing_m + rounding), 0.0, field.columns - 1.0));

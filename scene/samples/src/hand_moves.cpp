@@ -15,7 +15,7 @@ using physics::Length;
 constexpr Length kHighestPlace{1e-5};
 constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
 constexpr physics::Time kLongestWait{3600.0};
-constexpr Length kLeastSweep{1e-10};  // width and spacing of lines
+constexpr Length kLeastSweep{1e-10};  // smallest width and spacing of lines
 constexpr double kMostLines = 10'000.0;
 
 template <class Q, class Units>

@@ -10,7 +10,7 @@ namespace afm::scene {
 
 inline constexpr physics::Length kWidestPlace{1e-4};
 
-// A coordinate within -most to most; other ones are refused.
+// A coordinate from -most to most; others are refused.
 physics::Length place(const TomlTable& table, std::string_view key, physics::Length most);
 
 // Reads a place of the lever's base: x, y and z.

@@ -52,8 +52,8 @@ LeverBase on_the_way(const LeverBase& from, const HandMove& move, double share) 
   const double lines = lines_of(from, move);
   if (!(lines > 0.0)) return {from.position + way * share, z};
   const double length_m = magnitude(way).si, width_m = move.sweep_width.si, spacing_m = length_m / lines;
-  const double gone_m = share * way_of(from, move).si - 0.5 * width_m;  // since the first line began
-  double ahead_m = 0.0, aside_m = 0.5 * width_m + gone_m;               // aside: to the left
+  const double gone_m = share * way_of(from, move).si - 0.5 * width_m;  // distance since the start of the first line
+  double ahead_m = 0.0, aside_m = 0.5 * width_m + gone_m;               // aside: distance to the left
   if (gone_m > 0.0) {
     const double line = std::min(lines, std::floor(gone_m / (spacing_m + width_m)));
     const double on_line_m = gone_m - line * (spacing_m + width_m);

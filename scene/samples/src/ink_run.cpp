@@ -24,11 +24,11 @@ using physics::Length;
 using physics::LeverBase;
 using physics::Time;
 
-constexpr double kSquaresAcross = 480.0;  // squares along the larger side, with both margins
+constexpr double kSquaresAcross = 480.0;  // number of squares along the larger side, with both margins
 constexpr double kFinestM = 1e-9;
-constexpr double kStrongestTension = 1.0;  // N/m, twice that of mercury
+constexpr double kStrongestTension = 1.0;  // N/m, twice the surface tension of mercury
 
-// Largest dot that a wait leaves, and the widest line.
+// Largest dot left by a wait, or the widest line if that is larger.
 Length widest(const ParticleSet& set) {
   Length most(kFinestM);
   LeverBase from = set.start;

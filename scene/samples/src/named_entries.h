@@ -13,14 +13,14 @@
 // Common part of the libraries of materials and probes: entries with unique names.
 namespace afm::scene {
 
-// Null if there is none.
+// Null if the name is unknown.
 template <class Entry>
 const Entry* find_named(const std::vector<Entry>& entries, std::string_view name) {
   const auto at = std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.name == name; });
   return at == entries.end() ? nullptr : &*at;
 }
 
-// `kind` is the name of an entry in the message: "material".
+// `kind` names an entry in the message: "material".
 template <class Entry>
 core::Result<const Entry*> require_named(const std::vector<Entry>& entries, const char* kind, std::string_view name) {
   if (const Entry* entry = find_named(entries, name)) return entry;

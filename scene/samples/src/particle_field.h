@@ -5,7 +5,7 @@
 
 namespace afm::scene {
 
-// Smallest rectangle along x and y that has all the centres, and all rods whichever way they turn.
+// Smallest rectangle along x and y that contains all centres, and all rods in any direction.
 struct ParticleField {
   physics::Sideways<physics::Length> least, most;
 

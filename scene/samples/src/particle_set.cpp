@@ -29,11 +29,11 @@ using physics::Length;
 
 constexpr std::size_t kMostMoves = 1000;
 constexpr double kRounding = 1e-6;
-constexpr std::string_view kPadField = "pad_";  // fields that physics refuses begin with it
+constexpr std::string_view kPadField = "pad_";  // prefix of a pad's fields that the physics refuses
 constexpr std::int64_t kLargestSeed = 65535;
-constexpr double kWidestAngle = 360.0;  // degrees
+constexpr double kWidestAngle = 360.0;  // in degrees
 
-// A key of a table for a field that physics refuses.
+// Key of a table for a field that the physics may refuse.
 struct KeyOfField {
   std::string_view field, key;
 };
@@ -48,7 +48,7 @@ std::string_view key_of(std::string_view field, std::span<const KeyOfField> keys
   return at == keys.end() ? field : at->key;
 }
 
-// Its message with the key of the file in place of the field that it begins with: "particle modulus -1 Pa is not ...".
+// Message with the key of the file instead of the field at its beginning: "particle modulus -1 Pa is not ...".
 std::string message_of(const physics::UnphysicalValue& error, std::string_view key) {
   const auto in_words = [](std::string_view name) {
     std::string words(name);
@@ -121,7 +121,7 @@ physics::ParticleSpecies read_islands(const TomlTable& table, SpeciesEntry& entr
   return species;
 }
 
-// Reads whether the tip holds what it has touched, and whether its pull-offs scatter.
+// Reads if the tip holds particles that it has touched, and if its pull-offs scatter.
 void read_hold(const TomlTable& table, physics::ParticleSpecies& species) {
   species.sticks = table.has("sticks") && table.flag("sticks");
   if (species.sticks && !(species.tip_adhesion.si > 0.0)) {
@@ -186,7 +186,7 @@ void read_lever(const TomlTable& table, ParticleSet& set, SourcedValues& values)
                        values.quantity("contact_stiffness", physics::kStiffnessUnits)};
 }
 
-// The table and key of a field of PushSetup.
+// Checks the setup, and reports a fault with the table and key of its field.
 void check_setup(const ParticleSet& set, const TomlTable& top, const TomlTable& tip, const TomlTable& lever) {
   try {
     physics::validate(set.setup);
@@ -237,7 +237,7 @@ bool has_movable(const ParticleSet& set, bool rods) {
   });
 }
 
-// The places of a pattern: within the field of the particles, over which the hand reaches, and no nearer to
+// Reads the places of a pattern: within the field of the particles, over which the hand reaches, and no closer to
 // each other than the smallest particles that touch.
 void read_targets(const TomlTable& top, ParticleSet& set) {
   const auto movable = static_cast<std::size_t>(
@@ -269,7 +269,7 @@ void read_targets(const TomlTable& top, ParticleSet& set) {
   }
 }
 
-// A pad on which spheres stick harder or less, where the hand reaches it.
+// Reads a pad to which spheres stick harder or less, within the reach of the hand.
 void read_sticky_pad(const TomlTable& table, const Pad& pad, ParticleSet& set) {
   if (!has_movable(set, false)) {
     table.refuse("work_of_adhesion", "a pad that spheres stick to needs a sphere that can be moved");

@@ -41,7 +41,7 @@ Pattern shared_pattern_of(const ParticleSet& set) {
   return {shared_targets(set), shared_pads(set), field_of(set).middle()};
 }
 
-// The part of the axis within the pad's range of x, then of y (Liang & Barsky, ACM Trans. Graphics 3 (1984) 1).
+// True if the axis has a part within the pad's range of x, then of y (Liang & Barsky, ACM Trans. Graphics 3 (1984) 1).
 bool touches(const Pad& pad, const ParticlePlace& rod, Length length) {
   const Vector from = rod.position - pad.middle, end = end_of(rod, length);
   double first = -1.0, last = 1.0;

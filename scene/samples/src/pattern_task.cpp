@@ -38,7 +38,7 @@ void PatternTask::take_back() {
   if (task_.score.state == TaskState::Running) ++task_.score.undos;
 }
 
-// The pattern is no longer what it was at the end.
+// Continues a task that has ended, since the pattern has changed since.
 void PatternTask::go_on() {
   task_.score.state = TaskState::Running;
   task_.score.rms_m = task_.score.answer_n = 0.0;
@@ -56,7 +56,7 @@ void PatternTask::add(const TaskTick& tick) {
   TaskScore& score = task_.score;
   const bool lifted = tick.base_m[2] >= clear_z_m_ && !tick.carries, put = std::exchange(put_, false);
   if (set_.blind) follow_blind(tick);
-  if (lifted && !tick.swept) moving_ = guided_ = false;  // all that a scan sweeps is one stroke
+  if (lifted && !tick.swept) moving_ = guided_ = false;  // all pushes of one scan are a single stroke
   if (tick.places != last_->places) {
     if (!put) count_stroke(tick);
     lifted_ns_.reset();
@@ -85,13 +85,13 @@ void PatternTask::count_stroke(const TaskTick& tick) {
   task_.begun_ns = tick.time_ns;
 }
 
-// Once for each stroke that moved a particle, whenever in it the groove was there.
+// Counts each stroke that moved a particle, if the groove was there at any time during it.
 void PatternTask::count_guidance(const TaskTick& tick) {
   if (!moving_ || !tick.guided || std::exchange(guided_, true)) return;
   ++task_.score.guided;
 }
 
-// By the mean of the forces at both ends of the tick.
+// Adds the work of a tick, from the mean of the forces at both ends.
 void PatternTask::count_work(const TaskTick& tick) {
   TaskScore& score = task_.score;
   const std::array<double, 3> before_n{last_->lateral_n[0], last_->lateral_n[1], last_->lift_n};
@@ -112,7 +112,7 @@ void PatternTask::judge(std::span<const physics::ParticlePlace> places) {
   if (const auto far = off(places)) end(*far);
 }
 
-// Distance from the goal, if that is reached.
+// Distance from the goal; empty if the goal is not reached.
 std::optional<physics::Length> PatternTask::off(std::span<const physics::ParticlePlace> places) const {
   if (!set_.blind) {
     const auto pattern = pattern_state(set_, pattern_, places);
@@ -129,7 +129,7 @@ std::optional<LineWay> PatternTask::way(std::span<const physics::ParticlePlace> 
                    places[particle].position);
 }
 
-// The threshold is that of the newest stroke, before its first slip; the answer is the newest one after that.
+// Updates threshold and answer: the threshold of the newest stroke before its first slip; the newest answer after it.
 void PatternTask::follow_blind(const TaskTick& tick) {
   const auto gave_n = std::exchange(gave_n_, std::nullopt);
   const bool touches = tick.particle != kNoParticle;

@@ -176,7 +176,7 @@ ProbeLibrary read_probes(const toml::table& root) {
   return library;
 }
 
-// Replaces the material's source of `key` by the probe's of `probe_key`.
+// Replaces the material's source of `key` by the probe's source of `probe_key`.
 void take_source(MaterialEntry& material, std::string_view key, const ProbeEntry& probe, std::string_view probe_key) {
   const SourcedValue* found = find_source(probe.sources, probe_key);
   SourcedValue taken{std::string(key), found->value, fmt::format("{}: {}", probe.title, found->source),

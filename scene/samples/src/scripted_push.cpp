@@ -32,8 +32,8 @@ std::vector<ParticlePlace> places_of(const physics::PushedParticles& particles) 
   return places;
 }
 
-// Keeps the score of the scripted hand, as a live window does that of a person, except that a touch too weak to be felt
-// (FeltParticles::kFeltN) can end in a loss, too.
+// Keeps the score of the scripted hand, as a live window does for a person, except that a touch too weak to be felt
+// (FeltParticles::kFeltN) can also end in a loss.
 class ScriptedTask {
  public:
   explicit ScriptedTask(const ParticleSet& set)
@@ -89,7 +89,7 @@ class ScriptedTask {
   std::uint64_t yields_ = 0;
 };
 
-// Level 2: the pull-offs of spheres that stick scatter.
+// Setup of the particles themselves: at level 2, the pull-offs of spheres that stick scatter.
 physics::PushSetup true_setup(const ParticleSet& set, const PushScript& script) {
   physics::PushSetup setup = set.setup;
   if (script.level < 2) return setup;
@@ -101,7 +101,7 @@ physics::PushSetup true_setup(const ParticleSet& set, const PushScript& script) 
 
 LeverBase moved(const LeverBase& base, const Sideways<Length>& by) { return {base.position + by, base.z}; }
 
-// The hand, the particles below it and the picture of them, from tick to tick.
+// Plays the hand, the particles below it, and their picture, tick by tick.
 class Player {
  public:
   Player(const ParticleSet& set, const PushScript& script)

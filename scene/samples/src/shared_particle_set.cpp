@@ -12,7 +12,7 @@
 #include "scene/samples/scratch_run.h"
 #include "scene/shared/push_values.h"
 
-// A set for a shared scene, and back.
+// Conversion of a set for a shared scene, and back.
 namespace afm::scene {
 
 using physics::Length;
@@ -31,7 +31,7 @@ ParticleField field_of(const ParticleSet& set) {
 
 namespace {
 
-// The soft sample or the ink of the set.
+// Stores the soft sample or the ink of the set.
 void share_marks(const ParticleSet& set, SharedParticles& shared) {
   if (set.soft) {
     const physics::SoftSurface& surface = set.soft->surface;
@@ -137,7 +137,7 @@ Length median_radius(const ParticleSet& set) {
 
 ParticleSet recorded_set(const SharedParticles& recorded, const std::string& assets_dir) {
   const auto plain = std::make_unique<SharedParticles>(recorded);
-  plain->level = {};  // chosen with a set, not part of it
+  plain->level = {};  // level chosen by a user, not part of a set
   for (const std::string& name : particle_sets(assets_dir)) {
     const auto path = particle_file(name, assets_dir);
     auto set = path ? load_particle_set(*path) : tl::unexpected(path.error());

@@ -11,17 +11,17 @@ namespace afm::scene {
 
 class SourcedValues;
 
-// Reads the table [sample] of a particle file, with tip and lever, into a set that has title and medium alone.
+// Reads the table [sample] of a particle file, with tip and lever, into a set that so far has only title and medium.
 void read_soft_sample(const TomlTable& top, ParticleSet& set);
 
-// Refuses moves that a soft sample of this set cannot bear, or that leave the largest surface. `top` is that of the
-// set.
+// Refuses moves that a soft sample of this set cannot bear, or that leave the largest surface. `top` is the root of the
+// set's file.
 void check_soft_moves(const TomlTable& top, const ParticleSet& set);
 
-// The same for the table [ink]; tip and lever only for a hand.
+// Same for the table [ink]; tip and lever are only needed for a hand.
 void read_ink(const TomlTable& top, ParticleSet& set);
 
-// Reads the table [tip], and the lever's springs of these names. The contact's is not used.
+// Reads the table [tip], and those springs of the lever that are named. The contact's spring is not used.
 void read_marking_tip(const TomlTable& table, ParticleSet& set);
 void read_marking_lever(const TomlTable& table, std::span<const std::string_view> springs, ParticleSet& set);
 

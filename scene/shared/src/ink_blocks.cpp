@@ -8,8 +8,8 @@
 namespace afm::scene {
 namespace {
 
-constexpr double kDotsAcross = 10.0;  // dots of a second along the inked square
-constexpr double kSpareSquare = 1.5;  // part of the grid that is left, so that rounding adds none
+constexpr double kDotsAcross = 10.0;  // number of one-second dots along the inked square
+constexpr double kSpareSquare = 1.5;  // squares left free, so that rounding adds none
 
 static_assert(physics::InkedSurface::kTileSide == kTileSide && physics::InkedSurface::kMostSide >= kSoftSide);
 

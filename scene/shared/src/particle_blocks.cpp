@@ -25,7 +25,7 @@ namespace {
 // Largest and smallest size of a particle and of its threshold in a hand.
 constexpr double kSmallestInHandM = 1e-4, kLargestInHandM = 1.0;
 constexpr double kFaintestOnHandN = 0.01, kStrongestOnHandN = 10.0;
-constexpr double kSmallestDotM = 1e-9, kLargestDotM = 1e-3;  // diameters of the dot of a second
+constexpr double kSmallestDotM = 1e-9, kLargestDotM = 1e-3;  // limits for the diameter of a one-second dot
 
 physics::ParticleSpecies species_of(const SharedSpecies& shared) {
   return {.contact = {.tip_radius = physics::Length(shared.radius_m),

@@ -27,7 +27,7 @@ void hold(PushTool tool, physics::PushSetup& setup) noexcept {
   for (ParticleSpecies& species : setup.species) species.sticks = tool == PushTool::Grip && can_stick(species);
 }
 
-// Zero stays zero: unknown.
+// Work of adhesion in the medium; zero stays zero, which means unknown.
 physics::SurfaceEnergy adhesion_in(const PushMedium& medium, physics::SurfaceEnergy dry) noexcept {
   return dry.si > 0.0 ? medium.share * dry + medium.added : dry;
 }
@@ -66,7 +66,7 @@ std::unique_ptr<SharedParticles> adjusted(const SharedParticles& particles, cons
   return result;
 }
 
-// True if a law lacks a number of a species, so that another law cannot replace it.
+// True if the setup lacks a number of a species that another law needs.
 bool lacks_numbers(const physics::PushSetup& setup) {
   return std::any_of(setup.species.begin(), setup.species.end(), [](const ParticleSpecies& species) {
     try {
@@ -190,7 +190,7 @@ void adjust(const PushSettings& settings, SharedParticles& particles) {
     to.work_of_adhesion_j_per_m2 = from.contact.work_of_adhesion.si;
     to.tip_adhesion_j_per_m2 = from.tip_adhesion.si;
   }
-  std::size_t next = 0;  // a setup has only the pads that are there
+  std::size_t next = 0;  // next index; a setup contains only existing pads
   for (SharedPad& pad : particles.pads) {
     if (pad.work_of_adhesion_j_per_m2 == 0.0) continue;
     pad.work_of_adhesion_j_per_m2 = setup.pads[next++].work_of_adhesion.si;

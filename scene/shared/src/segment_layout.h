@@ -11,7 +11,7 @@
 
 namespace afm::scene {
 
-inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // "TAFMAFM1" in memory
+inline constexpr std::uint64_t kSegmentMagic = 0x314D46414D464154;  // bytes "TAFMAFM1" in memory
 
 // Sizes of the blocks in this build, in the order of SegmentLayout: two builds that differ reject each other.
 using BlockSizes = std::array<std::uint32_t, 16>;

@@ -102,7 +102,7 @@ bool is_valid(const SharedTopography& size) {
 }  // namespace
 
 double surface_scale(const SharedContact& material, double release_z_m) {
-  constexpr double kRounding = 1e-9;  // relative; with unchanged parameters the heights are the same
+  constexpr double kRounding = 1e-9;  // relative tolerance; with unchanged parameters the heights are the same
   const double scale = material.surface_release_m > 0.0 ? release_z_m / material.surface_release_m : 1.0;
   return std::abs(scale - 1.0) < kRounding ? 1.0 : scale;
 }
@@ -157,7 +157,7 @@ std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, phy
 
 namespace {
 
-// Empty if the map of modulus and adhesion, and what it needs, is a valid one.
+// Reason why the map of modulus and adhesion, or its use, is invalid; empty if valid.
 std::string why_no_map(const SharedContact& material) {
   const bool has_map_laws =
       material.law == physics::Law::Dmt || material.law == physics::Law::Jkr || material.law == physics::Law::Hertz;
@@ -299,7 +299,7 @@ bool is_valid(const SharedLawMap& map) {
     const auto used = values.first(std::size_t{map.columns} * map.rows);
     return std::all_of(used.begin(), used.end(), [&](float value) { return value >= least && value <= most; });
   };
-  constexpr float kLeastLnModulus = 0.0F, kMostLnModulus = 29.0F;  // 1 Pa to 4 TPa
+  constexpr float kLeastLnModulus = 0.0F, kMostLnModulus = 29.0F;  // logarithms of 1 Pa and 4 TPa
   constexpr float kLeastAdhesion = 1e-8F, kMostAdhesion = 100.0F;
   return all_within(map.ln_modulus, kLeastLnModulus, kMostLnModulus) &&
          all_within(map.adhesion_j_per_m2, kLeastAdhesion, kMostAdhesion);
@@ -372,7 +372,7 @@ bool is_valid(const ParticlePage& page) {
 
 bool is_valid(const PlannedPush& plan, const SharedModel& model) {
   if (plan.particle == kNoParticle) return plan == PlannedPush{};
-  const auto near = [](double place_m) { return std::abs(place_m) <= kFarthestPlanM; };  // NaN is not
+  const auto near = [](double place_m) { return std::abs(place_m) <= kFarthestPlanM; };  // false for NaN
   return has_particle(plan.particle, model) && plan.guided <= 1 &&
          std::all_of(plan.from_m.begin(), plan.from_m.end(), near) &&
          std::all_of(plan.to_m.begin(), plan.to_m.end(), near) &&

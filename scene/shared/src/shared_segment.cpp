@@ -33,7 +33,7 @@ void* map_whole(int descriptor, std::size_t bytes) {
   return ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
 }
 
-// Size of the heights after the blocks; `size` is valid.
+// Size of the heights stored after the blocks; `size` is valid.
 std::size_t bytes_of(const SharedTopography& size) { return std::size_t{size.columns} * size.rows * sizeof(float); }
 
 // Address of the heights: the layout is a whole number of pages long.

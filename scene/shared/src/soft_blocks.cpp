@@ -10,9 +10,9 @@
 namespace afm::scene {
 namespace {
 
-constexpr std::uint64_t kTilePrime = 0x100000001b3;  // prime of the 64-bit FNV-1a, here by words
+constexpr std::uint64_t kTilePrime = 0x100000001b3;  // prime of the 64-bit FNV-1a, here applied to words
 constexpr std::uint64_t kTileBasis = 0xcbf29ce484222325;
-constexpr double kSpareSquares = 0.5;  // less than a square, so that rounding adds none
+constexpr double kSpareSquares = 0.5;  // fraction of a square left free, so that rounding adds none
 
 static_assert(physics::MarkedSurface::kTileSide == kTileSide && physics::MarkedSurface::kMostSide >= int{kSoftSide});
 
@@ -50,7 +50,7 @@ std::uint64_t digest_of(std::span<const MarkTile> tiles) noexcept {
 }
 
 bool is_valid(const MarkTile& tile) {
-  const auto near = [](double height_m) { return std::abs(height_m) <= kMostMarkM; };  // NaN is not
+  const auto near = [](double height_m) { return std::abs(height_m) <= kMostMarkM; };  // false for NaN
   return std::all_of(tile.pressed_m.begin(), tile.pressed_m.end(), near) &&
          std::all_of(tile.back_m.begin(), tile.back_m.end(), near);
 }

@@ -46,7 +46,7 @@ struct Announced {
   bool edgebreaker = false;
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
-  std::uint64_t seam_tables = 0;  // one number per corner each
+  std::uint64_t seam_tables = 0;  // number of tables with one entry per corner
 };
 
 std::optional<Announced> read_announced(Stream stream) {
@@ -57,7 +57,7 @@ std::optional<Announced> read_announced(Stream stream) {
   const bool has_metadata = (stream[10] & 0x80U) != 0;
   if (!is_version_2_2 || !is_mesh || has_metadata) return std::nullopt;
   Announced announced{.edgebreaker = stream[8] == 1};
-  stream = stream.subspan(kHeader + (announced.edgebreaker ? 1 : 0));  // skips the traversal type
+  stream = stream.subspan(kHeader + (announced.edgebreaker ? 1 : 0));  // after the traversal type
   const auto first = read_varint(stream), second = read_varint(stream);
   if (!first || !second || stream.empty()) return std::nullopt;
   announced.vertices = announced.edgebreaker ? *first : *second;

@@ -30,7 +30,7 @@ void add_note(std::vector<std::string>& notes, const std::string& what) {
   if (notes.size() < kMostNotes && std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
 }
 
-// A model all of whose vertices are at one place leaves the picture as empty as no model does; points do not.
+// True unless all vertices of the node's mesh are at one place, which leaves the picture empty; true for points.
 bool has_size(const Scene& scene, const Node& node) {
   glm::dmat4 room_from_node = node.parent_from_node;
   for (auto above = node.parent; above; above = scene.nodes[*above].parent) {
@@ -47,7 +47,7 @@ bool has_size(const Scene& scene, const Node& node) {
   return false;
 }
 
-// Names the scene that was taken if nothing in it can be drawn.
+// Message that names the scene used, if nothing in it can be drawn.
 std::string why_empty(const tinygltf::Model& model, const Scene& scene) {
   bool has_mesh = false, has_primitive = false;
   for (const Node& node : scene.nodes) {

@@ -20,7 +20,7 @@
 namespace afm::scene {
 namespace {
 
-constexpr float kRoundedWeight = 0.01F;  // below zero, from an exporter's rounding
+constexpr float kRoundedWeight = 0.01F;  // largest negative weight due to an exporter's rounding
 
 glm::vec3 unit_or(glm::vec3 direction, glm::vec3 missing) {
   const float length = glm::length(direction);

@@ -49,7 +49,7 @@ std::vector<bool> find_parents(const std::vector<tinygltf::Node>& nodes) {
   return has_parent;
 }
 
-// Nodes below one of `roots`, without these.
+// Nodes below one of `roots`, excluding the roots.
 std::vector<bool> descendants(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots) {
   std::vector<bool> below(nodes.size(), false);
   std::vector<int> waiting = roots;
@@ -307,7 +307,7 @@ void read_cameras(const tinygltf::Model& model, Scene& scene) {
 }
 
 void read_lights(const tinygltf::Model& model, Scene& scene, GltfWarnings& notes) {
-  constexpr float kNarrower = 0.999F;  // inner cone within an outer one of the same angle
+  constexpr float kNarrower = 0.999F;  // factor for the inner cone if the outer one has the same angle
   for (std::size_t i = 0; i < model.lights.size(); ++i) {
     const tinygltf::Light& source = model.lights[i];
     PunctualLight& light = scene.lights.emplace_back();

@@ -50,11 +50,11 @@ void read_sampler(const tinygltf::Sampler& sampler, Texture& texture) {
   texture.wrap_v = wrap_of(sampler.wrapT);
 }
 
-constexpr std::size_t kLongestNamed = 200;  // bytes of a file's name in a message
+constexpr std::size_t kLongestNamed = 200;  // bytes of a file name in a message
 
 // Image bytes before decoding.
 struct EncodedImage {
-  std::string path;  // "/images/0", and the file's name
+  std::string path;  // location such as "/images/0", and the file's name
   Bytes owned;
   std::span<const std::uint8_t> bytes;
 };
@@ -75,7 +75,7 @@ EncodedImage read_image(GltfModel& model, const GltfBuffers& buffers, std::uint3
   return image;
 }
 
-// Each worker takes the next image until none is left.
+// Decodes all images; each worker takes the next one until none is left.
 void decode_all(const std::vector<EncodedImage>& encoded, std::vector<Image>& images) {
   std::atomic<std::size_t> next{0};
   std::vector<std::exception_ptr> faults(images.size());

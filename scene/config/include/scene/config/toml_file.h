@@ -22,7 +22,7 @@ struct Fault {
 // and line.
 core::Result<toml::table> parse_toml(const char* kind, const std::string& path);
 
-// The same with the key.
+// Same as above; also names the key at fault.
 core::Error toml_error(const char* kind, const std::string& path, const Fault& fault);
 
 // Parses the file and hands its root to `read`, which throws Faults.

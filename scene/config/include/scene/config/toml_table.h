@@ -44,9 +44,9 @@ class TomlTable {
 
   const toml::node& node(std::string_view key) const;
 
-  std::string text(std::string_view key) const;  // not empty
+  std::string text(std::string_view key) const;  // value of the key, at least one character
   std::string text(std::string_view key, std::size_t most_bytes) const;
-  std::vector<std::string> texts(std::string_view key, std::size_t most) const;  // at least one, each once
+  std::vector<std::string> texts(std::string_view key, std::size_t most) const;  // one to `most` distinct values
   bool flag(std::string_view key) const;
   std::int64_t whole(std::string_view key, std::int64_t least, std::int64_t most) const;
 
@@ -66,8 +66,8 @@ class TomlTable {
     }
     return values;
   }
-  glm::dvec3 point(std::string_view key) const;     // in metres
-  glm::dquat rotation(std::string_view key) const;  // [x, y, z, w]
+  glm::dvec3 point(std::string_view key) const;     // three coordinates in metres
+  glm::dquat rotation(std::string_view key) const;  // quaternion [x, y, z, w]
 
   // A text of number and unit: "50 nm".
   template <class Q>
@@ -77,7 +77,7 @@ class TomlTable {
     if (!parsed.value) refuse(key, parsed.error);
     return *parsed.value;
   }
-  // The same without the refusal. The error for a number outside quotes names the units, too.
+  // Same as quantity(), but returns the error. The error for a number outside quotes names the units, too.
   template <class Q>
   physics::ParsedQuantity<Q> parsed_quantity(std::string_view key, const physics::UnitList<Q>& units,
                                              physics::Infinity infinity) const {
@@ -92,7 +92,7 @@ class TomlTable {
   const Row& one_of(std::string_view key, const Rows& rows, std::string_view Row::* word) const {
     return row_named(key, text(key), rows, word);
   }
-  // The same for a text that was read from the key.
+  // Same as one_of(), with a text that has already been read from the key.
   template <class Rows, class Row>
   const Row& row_named(std::string_view key, std::string_view value, const Rows& rows,
                        std::string_view Row::* word) const {
@@ -112,7 +112,7 @@ class TomlTable {
 
  private:
   std::string full(std::string_view key) const;
-  std::optional<std::string> bare_number(std::string_view key) const;  // a number outside quotes, as written
+  std::optional<std::string> bare_number(std::string_view key) const;  // number outside quotes, as written
 
   const toml::table* table_;
   std::string name_;

@@ -18,7 +18,7 @@ inline constexpr std::array<std::string_view, 4> kScreenEdgeNames{"left", "top",
 // Part of a screen in which its picture fades out towards an edge: a smooth ramp, dark from the edge to `begin_m`. Zero
 // width means no ramp.
 struct EdgeRamp {
-  double begin_m = 0;  // from the edge
+  double begin_m = 0;  // distance from the edge to the ramp, in metres
   double width_m = 0;
 
   bool operator==(const EdgeRamp&) const = default;
@@ -42,14 +42,14 @@ struct Blend {
   // Screen whose picture fades out in the ramps and ends at the box.
   struct Field {
     glm::dvec2 low{0.0}, high{1.0};
-    std::array<double, kScreenEdgeNames.size()> begin{};  // ramp starts, inwards from the edges; by ScreenEdge
-    std::array<double, kScreenEdgeNames.size()> width{};  // 0: no ramp
+    std::array<double, kScreenEdgeNames.size()> begin{};  // ramp starts, inwards from the edges; indexed by ScreenEdge
+    std::array<double, kScreenEdgeNames.size()> width{};  // widths of the ramps; 0: no ramp
     double black = 0;                                     // luminance of the projector's black, relative to its white
   };
-  std::vector<Field> fields{};    // the output's own first; at most kMostScreens
-  std::optional<double> gamma{};  // exponent from encoded value to light; none: sRGB's curve
+  std::vector<Field> fields{};    // the output's own screen first; at most kMostScreens
+  std::optional<double> gamma{};  // exponent from encoded value to light; none: sRGB curve
   double brightest_black = 0;     // largest sum of the projectors' blacks at any point of the overlap
-  double darkest_black = 0;       // smallest such sum
+  double darkest_black = 0;       // smallest sum of the projectors' blacks at any point of the overlap
 
   // Values at a point of the picture.
   struct Place {

@@ -13,8 +13,8 @@ namespace afm::scene {
 inline constexpr double kComfortableDisparityRad = 0.017453292519943295;
 
 struct Disparity {
-  double crossed_rad = 0;  // convergence of the eyes relative to the wall; negative behind it
-  double uncrossed_m = 0;  // on the wall, from the left eye's image to the right eye's; negative in front of it
+  double crossed_rad = 0;  // convergence of the eyes relative to the wall; negative: behind the wall
+  double uncrossed_m = 0;  // shift on the wall from the left to the right eye's image; negative: in front of the wall
 };
 
 // Disparity of a point straight ahead of a level head that faces the wall squarely; depth_m from the eyes, inf allowed.

@@ -30,13 +30,13 @@ struct Screen {
 
   double width_m() const;
   double height_m() const;
-  glm::dvec3 normal() const;  // unit, towards the viewer
+  glm::dvec3 normal() const;  // unit vector towards the viewer
   glm::dvec3 center() const;
 };
 
 struct HeadPose {
   glm::dvec3 position_m{0.0};
-  glm::dquat room_from_head{1.0, 0.0, 0.0, 0.0};  // looks along -z, +x to the right
+  glm::dquat room_from_head{1.0, 0.0, 0.0, 0.0};  // orientation; the head looks along -z, +x is to its right
 };
 
 enum class Eye { Left, Right };
@@ -140,8 +140,8 @@ struct Wall {
   std::vector<WallNode> nodes{};  // may be empty
   std::vector<Output> outputs;    // may be empty
   std::vector<Viewer> viewers;
-  std::vector<Output> outputs_elsewhere{};  // those of other machines, after keep_outputs_of()
-  std::vector<std::string> unused{};        // elements of the file that the program does not use, a line for each
+  std::vector<Output> outputs_elsewhere{};  // outputs of other machines, set by keep_outputs_of()
+  std::vector<std::string> unused{};        // elements of the file that the program does not use, one line each
 };
 
 // Blending of a picture of that screen by projectors without known properties; null if nothing overlaps it.

@@ -22,7 +22,7 @@ std::vector<std::string> notes_of(const Wall& wall);
 // A length that no screen and no viewer's distance can have in metres, with the unit that would fit.
 struct ImpossibleLength {
   bool of_viewer = false;  // a viewer's distance; otherwise a screen's edge
-  std::size_t index = 0;   // into Wall::viewers or Wall::screens
+  std::size_t index = 0;   // index into Wall::viewers or Wall::screens
   std::string what;
 };
 std::optional<ImpossibleLength> impossible_length(const Wall& wall);

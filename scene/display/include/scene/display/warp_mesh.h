@@ -17,7 +17,7 @@ namespace afm::scene {
 struct WarpNode {
   glm::dvec2 output{0.0};
   glm::dvec2 picture{0.0};
-  double intensity = 1;  // factor for the encoded colour, 0 to 1; negative: nothing is drawn around the node
+  double intensity = 1;  // factor for the encoded colour, 0 to 1; negative: area around the node is blank
 };
 
 // Grid of nodes, row by row. Each cell consists of two triangles, over which positions and intensity are linear; the
@@ -45,7 +45,7 @@ struct WarpedPlace {
 };
 std::optional<WarpedPlace> warped_place(const WarpMesh& mesh, const glm::dvec2& output);
 
-// Same for the centre of each pixel of an output of that size, row by row: xy: picture; z: intensity; w: 0 where
+// Same for the centre of each pixel of an output of that size, row by row. xy: picture point; z: intensity; w: 0 if
 // nothing is drawn, else 1 + the distance in pixels from the nearest visible line of the mesh. A dense mesh shows only
 // some of its lines.
 std::vector<glm::vec4> warp_map(const WarpMesh& mesh, const glm::uvec2& size_px);

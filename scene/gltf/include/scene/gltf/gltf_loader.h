@@ -14,9 +14,9 @@ struct GltfWarnings {
   std::string generator;                // program that wrote the file, as stated in it
   std::vector<std::string> extensions;  // extensions used by the file and supported by the loader
   std::vector<std::string> ignored;     // parts that are not shown, with the reason
-  std::vector<std::string> corrected;   // values that break glTF and are drawn as others
-  std::vector<std::string> missing;     // missing images, without which the model is drawn
-  std::string empty;                    // reason why nothing is shown; empty: something is
+  std::vector<std::string> corrected;   // values that violate glTF, with their replacements
+  std::vector<std::string> missing;     // images that were not found; the model is drawn without them
+  std::string empty;                    // reason why nothing is shown; empty if something is
 
   // Each adds a warning unless it is already listed.
   void ignore(const std::string& what);

@@ -31,7 +31,7 @@ struct AnimatedNode {
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
   glm::dvec3 scale{1.0};
   std::optional<Track> translations{};
-  std::optional<Track> rotations{};  // x, y, z, w
+  std::optional<Track> rotations{};  // quaternions x, y, z, w
   std::optional<Track> scales{};
   std::optional<Track> weights{};
 };

@@ -32,7 +32,7 @@ struct Texture {
   std::uint32_t image = 0;
   TextureFilter magnified = TextureFilter::Linear;
   TextureFilter minified = TextureFilter::Linear;
-  std::optional<TextureFilter> between_mips = TextureFilter::Linear;  // none: the image has no mipmaps
+  std::optional<TextureFilter> between_mips = TextureFilter::Linear;  // filter between mipmap levels; none: no mipmaps
   TextureWrap wrap_u = TextureWrap::Repeat;
   TextureWrap wrap_v = TextureWrap::Repeat;
 
@@ -42,17 +42,17 @@ struct Texture {
 // Purpose of a material's texture; each has its number in material.frag.
 enum class TextureSlot : std::uint8_t {
   BaseColor,             // rgb colour, a coverage
-  MetallicRoughness,     // g roughness, b metalness
-  Normal,                // tangent space
-  Occlusion,             // r
-  Emissive,              // rgb
-  Specular,              // a
-  SpecularColor,         // rgb
-  Clearcoat,             // r
-  ClearcoatRoughness,    // g
-  ClearcoatNormal,       // tangent space
-  Iridescence,           // r
-  IridescenceThickness,  // g
+  MetallicRoughness,     // g: roughness; b: metalness
+  Normal,                // normals in tangent space
+  Occlusion,             // r: ambient occlusion
+  Emissive,              // rgb: emitted colour
+  Specular,              // a: strength of the specular reflection
+  SpecularColor,         // rgb: colour of the specular reflection
+  Clearcoat,             // r: strength of the coat
+  ClearcoatRoughness,    // g: roughness of the coat
+  ClearcoatNormal,       // normals of the coat in tangent space
+  Iridescence,           // r: strength of the iridescence
+  IridescenceThickness,  // g: thickness of the film
   Count
 };
 inline constexpr auto kTextureSlots = static_cast<std::size_t>(TextureSlot::Count);
@@ -60,7 +60,7 @@ inline constexpr auto kTextureSlots = static_cast<std::size_t>(TextureSlot::Coun
 struct TextureSlotTraits {
   TextureSlot slot;
   std::string_view name;
-  bool is_srgb = false;  // else linear
+  bool is_srgb = false;  // sRGB if true, linear otherwise
 };
 
 // Every slot, in the order of the enumeration.
@@ -103,7 +103,7 @@ struct TextureUse {
 struct PbrMaterial {
   std::string name;
   glm::vec4 base_color{1.0F};
-  glm::vec3 emissive{0.0F};  // KHR_materials_emissive_strength included
+  glm::vec3 emissive{0.0F};  // emitted light, including KHR_materials_emissive_strength
   float metallic = 1.0F;
   float roughness = 1.0F;
   bool double_sided = false;
@@ -133,7 +133,7 @@ enum class PbrUse {
   Plain,     // drawn by every shader, or by a texture with its own bit
   Factor,    // read only by material.frag; no effect without a texture or a feature
   Extended,  // values other than the default are drawn only by material.frag
-  Feature,   // same, and the field enables a part of the shader; 0: off
+  Feature,   // values other than the default enable a part of material.frag; 0: off
 };
 
 template <class T>

@@ -63,9 +63,9 @@ struct Primitive {
   Topology topology = Topology::Triangles;
   Normals normals = Normals::Given;
   std::vector<TextureCoordinates> texture_coordinates{};
-  std::vector<glm::vec4> tangents{};  // xyz unit, w the bitangent's sign
+  std::vector<glm::vec4> tangents{};  // xyz: unit vector; w: sign of the bitangent
   std::vector<Influence> influences{};
-  std::vector<Influence> more_influences{};  // joints 4 to 7
+  std::vector<Influence> more_influences{};  // influences of joints 4 to 7
   std::vector<MorphTarget> targets{};
   std::vector<VariantMaterial> variants{};
 };
@@ -73,18 +73,18 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::vector<float> weights{};  // one per morph target, as in each primitive
+  std::vector<float> weights{};  // one weight per morph target of each primitive
 };
 
 // glTF 2.0 cameras look along their node's -z with +y up.
 struct Camera {
   std::string name;
   bool perspective = true;
-  float yfov_rad = 0.0F;                // perspective
-  std::optional<float> aspect_ratio{};  // width to height; none: the picture's
-  glm::vec2 half_size_m{0.0F};          // orthographic
+  float yfov_rad = 0.0F;                // vertical field of view; perspective only
+  std::optional<float> aspect_ratio{};  // width to height; none: that of the picture
+  glm::vec2 half_size_m{0.0F};          // half width and height of the view; orthographic only
   float near_m = 0.0F;
-  std::optional<float> far_m{};  // none: infinite
+  std::optional<float> far_m{};  // far plane; none: infinite
 };
 
 // KHR_lights_punctual: shines along its node's -z, or all around.
@@ -92,8 +92,8 @@ struct PunctualLight {
   enum class Kind { Directional, Point, Spot };
   std::string name;
   Kind kind = Kind::Point;
-  glm::vec3 intensity{1.0F};       // colour times lux (directional) or candela
-  std::optional<float> range_m{};  // none: unlimited
+  glm::vec3 intensity{1.0F};       // colour times lux (directional) or candela (others)
+  std::optional<float> range_m{};  // distance beyond which there is no light; none: unlimited
   float inner_cone_rad = 0.0F;
   float outer_cone_rad = 0.0F;
 };
@@ -109,7 +109,7 @@ struct Node {
   std::optional<std::uint32_t> light{};
   std::vector<float> weights{};   // morph target weights that replace the mesh's own
   std::uint32_t most_copies = 0;  // largest number of copies of the mesh that a frame shows in its place; 0: none
-  bool reshaped = false;          // a frame gives the vertices of its mesh, one primitive, within the mesh's own box
+  bool reshaped = false;          // true: a frame gives the vertices of its mesh, one primitive, within the mesh's box
   std::string role{};             // role in TouchAFM (docs/gltf.md): "tip", "base", "surface" or "mark"
 };
 

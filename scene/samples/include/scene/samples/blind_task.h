@@ -29,8 +29,8 @@ static_assert(core::has_row_for_each(kBlindKinds, &BlindKindRow::kind));
 
 struct BlindTask {
   BlindKind kind = BlindKind::Line;
-  std::size_t particle = 0;  // number in the set, from 0, of the one that is pushed
-  std::size_t target = 0;    // the same of a target; only for Line
+  std::size_t particle = 0;  // index in the set of the particle to push
+  std::size_t target = 0;    // index in the set of its target; BlindKind::Line only
 
   bool operator==(const BlindTask&) const = default;
 };
@@ -40,10 +40,10 @@ struct ParticleSet;
 // Reason why a set does not allow the task, for its author; empty: it does. Its numbers are those of the set.
 std::string why_not(const BlindTask& task, const ParticleSet& set);
 
-// A threshold is found if the answer is no farther from it than this share.
+// Largest relative error of an answer that counts as finding the threshold.
 inline constexpr double kThresholdWithin = 0.2;
 
-// Way of a particle along the line from its start to a target.
+// Path of a particle relative to the line from its start to a target.
 struct LineWay {
   physics::Length along;
   physics::Length aside;   // distance from the line
@@ -72,7 +72,7 @@ class HeldForce {
     double sum_n_ns;  // integral of the force over time, from the start of the contact
   };
   std::deque<Part> parts_;  // ticks of the newest kHeldNs
-  double force_n_ = 0;      // newest
+  double force_n_ = 0;      // newest force
   std::optional<double> most_n_;
 };
 

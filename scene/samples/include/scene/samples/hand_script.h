@@ -9,11 +9,11 @@
 // The scripted hand of a particle file in ticks of a rate.
 namespace afm::scene {
 
-// A sweep goes in lines across its way, there and back, each one line spacing farther on: half a line to the left of
-// the start, then on and across, on and back, and so forth, and half a line to the end. The height changes evenly.
+// A sweep runs in lines across its path, back and forth, each one line spacing farther on: half a line to the left of
+// the start, then on and across, on and back, and so on, and half a line to the end. The height changes evenly.
 
-// Lines of a sweep from a place, as many as keep their spacing at most that of the move; 0: it is straight, or goes
-// nowhere.
+// Number of lines of a sweep from a place, enough to keep their spacing at most that of the move; 0: straight, or no
+// movement.
 double lines_of(const physics::LeverBase& from, const HandMove& move);
 
 // Ticks of a move from a place, at least one, without its wait.
@@ -26,7 +26,7 @@ std::size_t waiting_ticks(const HandMove& move, physics::Frequency rate);
 // counter holds.
 double all_ticks(const ParticleSet& set, physics::Frequency rate);
 
-// The place at a share of the way of a move from a place; at 1 its end.
+// Place at a fraction of a move's path; at 1 its end.
 physics::LeverBase on_the_way(const physics::LeverBase& from, const HandMove& move, double share);
 
 }  // namespace afm::scene

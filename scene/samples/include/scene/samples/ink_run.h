@@ -10,42 +10,42 @@
 #include "physics/units.h"
 #include "scene/samples/particle_set.h"
 
-// The scripted hand of a file with ink, played.
+// Playback of the scripted hand of a file with ink.
 namespace afm::scene {
 
-// A tip with ink, which it leaves while its apex is on the sample or pressed on it: z <= 0. A hand can write with
-// one whose set has a tip and a lever.
+// Ink on a tip, deposited while the apex is on the sample or pressed into it: z <= 0. A person can write with it if the
+// set has a tip and a lever.
 struct InkSample {
   std::string name;
   physics::Ink ink;
-  physics::Length thickness;                 // height of a layer
-  physics::SurfaceEnergy surface_tension{};  // liquid that holds the tip; 0: no hand can write with it
+  physics::Length thickness;                 // height of one layer of ink
+  physics::SurfaceEnergy surface_tension{};  // liquid that holds the tip; 0: unsuitable for a person's hand
 };
 
-// A move: what it has covered, and what the formulas say.
+// Measured and predicted result of a move.
 struct InkedMove {
   bool touches = false;
-  physics::Time touched{};   // time on the sample, with the wait
-  physics::Area covered;     // by this move
-  physics::Length way;       // along the sample, on it
+  physics::Time touched{};   // time on the sample, including the wait
+  physics::Area covered;     // area covered by this move
+  physics::Length way;       // path along the sample while touching
   physics::Length width;     // width of the line on the grid; 0: no line
-  physics::Length by_speed;  // width by (M81), along a line
-  physics::Length radius;    // dot where the move ends, by (M80); 0: no wait
+  physics::Length by_speed;  // width predicted by (M81) for a line
+  physics::Length radius;    // radius of the dot at the move's end, by (M80); 0: no wait
 };
 
 struct InkRun {
   double seconds = 0.0;
   std::size_t ticks = 0;
-  physics::Area covered, lost;  // in all, and beyond the grid
+  physics::Area covered, lost;  // total covered area, and area beyond the grid
   physics::Length spacing;
   std::vector<InkedMove> moves;
-  physics::ScanImage image;  // heights of the layer; one channel
+  physics::ScanImage image;  // heights of the layer in one channel
 };
 
-// `set` has ink, and was loaded.
+// Plays the moves of a loaded set that has ink.
 InkRun play_ink(const ParticleSet& set, physics::Frequency rate);
 
-// Squares on which the hand of this set writes, and the margin around its places.
+// Size of the squares on which the hand of this set writes, and the margin around its places.
 physics::Length ink_spacing(const ParticleSet& set);
 physics::Length ink_margin(const ParticleSet& set);
 

@@ -34,16 +34,16 @@ struct MaterialEntry {
   std::optional<physics::Force> experiment_f_ad;         // magnitude, measured by others
   std::vector<SourcedValue> sources;                     // sources of all numbers above, in the order of the fields
   physics::FrictionParameters friction;                  // numbers of every friction law; none is selected here
-  bool has_lattice = false;                              // false: its atoms are not ordered
+  bool has_lattice = false;                              // true: ordered atoms
   std::vector<SourcedValue> friction_sources;            // sources of the friction numbers
 };
 
 struct MaterialLibrary {
   std::vector<MaterialEntry> materials;  // in the file's order, with unique names and valid interactions
 
-  std::vector<std::string> names() const;  // in file order
+  std::vector<std::string> names() const;  // names in the order of the files
 
-  // Null if there is none.
+  // Null if the name is unknown.
   const MaterialEntry* find(std::string_view name) const;
 
   // find(), or an error of wrong usage that lists the known names.

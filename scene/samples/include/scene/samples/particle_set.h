@@ -21,9 +21,9 @@ namespace afm::scene {
 struct HandMove {
   physics::LeverBase to;
   physics::Velocity speed;
-  physics::Time wait{};            // at its end
-  physics::Length sweep_width{};   // lines of a sweep; 0: the move is straight
-  physics::Length line_spacing{};  // distance of these lines, at most
+  physics::Time wait{};            // wait at the end of the move
+  physics::Length sweep_width{};   // width of a sweep's lines; 0: straight move
+  physics::Length line_spacing{};  // largest distance between a sweep's lines
 };
 
 // A species of particles as in a file.
@@ -32,34 +32,34 @@ struct SpeciesEntry {
   std::vector<SourcedValue> sources;
 };
 
-// An electrode on the sample, flat, that a rod is to touch: a rectangle along x and y. A pad to which spheres stick is
+// A flat rectangular electrode on the sample, to be touched by a rod. A pad to which spheres stick is
 // a physics::StickyPad of the setup.
 struct Pad {
   physics::Sideways<physics::Length> middle;
   physics::Sideways<physics::Length> half_size;
 };
 
-struct SoftSample;  // scratch_run.h
-struct InkSample;   // ink_run.h
+struct SoftSample;  // scene/samples/scratch_run.h
+struct InkSample;   // scene/samples/ink_run.h
 
 // Particles on a sample, the tip that pushes them, and a hand that moves it.
 struct ParticleSet {
   std::string title;
-  std::string medium;  // "air"
-  std::string note;    // may be empty
+  std::string medium;  // name of the medium, such as "air"
+  std::string note;    // remark about the set; may be empty
   physics::PushSetup setup;
   std::vector<SpeciesEntry> species;  // names of setup.species, in order
   std::vector<physics::PlacedParticle> particles;
   std::vector<physics::ParticlePlace> targets;  // places of the pattern to be formed; may be empty
-  std::vector<Pad> pads;                        // to be bridged by a rod; may be empty
-  std::optional<BlindTask> blind;               // the task, instead of the pattern
+  std::vector<Pad> pads;                        // electrodes to be bridged by a rod; may be empty
+  std::optional<BlindTask> blind;               // task that replaces the pattern
   physics::LeverBase start;
   std::vector<HandMove> moves;
   std::vector<SourcedValue> sources;  // sources of tip, lever, pads and soft sample
-  // With one there are no particles. Under a hand the sample is a square around its origin, whatever the moves.
+  // Soft sample; if set, there are no particles. Under a hand it is a square around its origin, whatever the moves.
   std::shared_ptr<const SoftSample> soft;
-  // With it there is neither particle nor soft sample, and the same holds. Without a surface tension there are neither
-  // tip nor lever, and only `touchafm particles` plays the set.
+  // Ink; if set, there are neither particles nor a soft sample, and the square is the same. Without surface tension
+  // there are neither tip nor lever, and only `touchafm particles` plays the set.
   std::shared_ptr<const InkSample> ink;
 };
 

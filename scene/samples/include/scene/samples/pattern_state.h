@@ -12,10 +12,10 @@ namespace afm::scene {
 
 // Distance of the particles of a set from its pattern.
 struct PatternState {
-  physics::PatternMatch match;  // numbers of particles in the set
-  physics::Length allowed;      // largest root mean square distance of a pattern that is done
-  std::size_t pads = 0;         // pads of the set
-  std::size_t touched = 0;      // the most that one rod touches
+  physics::PatternMatch match;  // match of particles, by their indices in the set, and targets
+  physics::Length allowed;      // largest root mean square distance at which the pattern counts as done
+  std::size_t pads = 0;         // number of pads in the set
+  std::size_t touched = 0;      // largest number of pads touched by one rod
 
   // With pads, a pattern is done when a rod touches them all, however far it is from its target.
   bool done() const { return pads > 0 ? touched == pads : match.rms <= allowed; }
@@ -27,7 +27,7 @@ struct Pattern {
   std::vector<Pad> pads;
   physics::Sideways<physics::Length> origin{};  // place of this frame's origin in the frame of the file
 };
-Pattern pattern_of(const ParticleSet& set);         // in the frame of the file
+Pattern pattern_of(const ParticleSet& set);         // pattern in the frame of the file
 Pattern shared_pattern_of(const ParticleSet& set);  // pattern in the frame of a shared scene
 
 // Particles that are pinned stay out. `places` are those of all particles, in the frame of the pattern. Empty without

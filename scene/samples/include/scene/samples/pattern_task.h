@@ -19,20 +19,20 @@ namespace afm::scene {
 // Part of a tick from which the score is computed. Places in one frame, that of the targets.
 struct TaskTick {
   std::int64_t time_ns = 0;
-  std::array<double, 3> base_m{};       // apex on the unbent lever
+  std::array<double, 3> base_m{};       // apex on the unbent lever, in metres
   std::array<double, 2> lateral_n{};    // force of the particles on the lever, along x and y
-  double lift_n = 0;                    // the same, upwards
-  std::uint64_t places = 0;             // changes whenever a particle has moved
-  std::int32_t particle = kNoParticle;  // touched one
-  bool guided = false;                  // a groove guides the hand
-  bool carries = false;                 // true: a particle hangs on the tip, so that the pattern is not left
-  bool swept = false;                   // a scan pushes the particles, not the hand
-  bool truth = false;                   // the particles are shown, not a picture of them
+  double lift_n = 0;                    // upward force of the particles on the lever
+  std::uint64_t places = 0;             // counter that changes whenever a particle has moved
+  std::int32_t particle = kNoParticle;  // index of the touched particle
+  bool guided = false;                  // true: a groove guides the hand
+  bool carries = false;                 // true: a particle hangs on the tip, so the hand has not left the pattern
+  bool swept = false;                   // true: a scan pushes the particles, not the hand
+  bool truth = false;                   // true: the particles themselves are shown, not a picture of them
 };
 
 // A task: to push the particles of a set to its pattern, or its BlindTask. It begins with the first push, ends once the
-// pattern is done and the hand has been lifted for kRestNs, and begins again when all particles are put back. If that
-// is undone, the task before continues, with its clock. So does a task that has ended, if a push from before its end is
+// done and the hand has been lifted for kRestNs, and begins again when all particles are put back. If putting back
+// is undone, the previous task continues, with its clock. So does an ended task, if a push from before its end is
 // taken back.
 //
 // The score follows only from ticks and events, so that a replay gives the same score. A caller that sees the particles
@@ -64,7 +64,7 @@ class PatternTask {
 
   const TaskScore& score() const { return task_.score; }
 
-  // The wall is to be dark: a blind task has begun with a touch, and is not done.
+  // True if the wall must be dark: a blind task has begun with a touch and is not done.
   bool dark() const { return set_.blind && task_.touched && task_.score.state != TaskState::Done; }
 
   // Way of the pushed particle, only in a task along a line; `places` as for judge().
@@ -75,12 +75,12 @@ class PatternTask {
     TaskScore score;
     std::int64_t begun_ns = 0;
     std::uint32_t kept_strokes = 0;  // strokes that have not been taken back
-    std::uint32_t done_strokes = 0;  // kept ones when the task ended
-    bool touched = false;            // the tip has touched a particle
+    std::uint32_t done_strokes = 0;  // number of kept strokes when the task ended
+    bool touched = false;            // true: the tip has touched a particle
   };
   struct Rest {
     std::int64_t lifted_ns = 0;
-    TaskScore score;  // at the end of kRestNs
+    TaskScore score;  // score at the end of kRestNs
     bool judged = false;
   };
 
@@ -97,15 +97,15 @@ class PatternTask {
   Pattern pattern_;
   double clear_z_m_;
   Task task_;
-  std::vector<Task> earlier_;  // tasks that ended because all particles were put back, which can be taken back
+  std::vector<Task> earlier_;  // tasks ended by putting all particles back; restored if that is undone
   std::optional<TaskTick> last_;
-  bool put_ = false;     // the next tick has particles that were put somewhere, not pushed
-  bool moving_ = false;  // the current stroke has moved a particle
-  bool guided_ = false;  // it has been counted as guided
+  bool put_ = false;     // true: the next tick's particles were put in place, not pushed
+  bool moving_ = false;  // true: the current stroke has moved a particle
+  bool guided_ = false;  // true: the current stroke has been counted as guided
   std::optional<std::int64_t> lifted_ns_;
-  std::optional<double> gave_n_;  // force at which a particle has given in the next tick
-  HeldForce held_;                // force on a pinned particle
-  std::optional<Rest> rest_;      // at the current places, even if the hand has come down since
+  std::optional<double> gave_n_;  // force at which a particle begins to move in the next tick
+  HeldForce held_;                // held force on a pinned particle
+  std::optional<Rest> rest_;      // rest at the current places, even if the hand has come down since
 };
 
 // The score in one line, for logs and reports.

@@ -21,9 +21,9 @@ struct ProbeEntry {
   std::string title;  // name for display
   std::string shape;  // "rectangular" or "v-shaped"
   std::string tip;    // material of the tip
-  std::string note;   // may be empty
+  std::string note;   // remark about the probe; may be empty
   physics::Length tip_radius;
-  physics::Stiffness spring_constant;  // nominal, or computed from the geometry
+  physics::Stiffness spring_constant;  // nominal value, or computed from the geometry
   std::optional<physics::Elasticity> tip_elasticity;
   std::optional<physics::Frequency> resonance_in_air, resonance_in_liquid;
   std::optional<double> quality_factor_in_air, quality_factor_in_liquid;
@@ -31,9 +31,9 @@ struct ProbeEntry {
 };
 
 struct ProbeLibrary {
-  std::vector<ProbeEntry> probes;  // in the file's order, names unique
+  std::vector<ProbeEntry> probes;  // probes in the order of the files, with unique names
 
-  // Null if there is none.
+  // Null if the name is unknown.
   const ProbeEntry* find(std::string_view name) const;
 
   // find(), or an error of wrong usage that lists the known names.

@@ -11,7 +11,7 @@
 #include "physics/units.h"
 #include "scene/samples/particle_set.h"
 
-// The scripted hand of a file with a soft sample, played.
+// Playback of the scripted hand of a file with a soft sample.
 namespace afm::scene {
 
 // A sample that the tip scratches.
@@ -20,13 +20,13 @@ struct SoftSample {
   physics::SoftSurface surface;
 };
 
-// Smallest rectangle along x and y that has the start and the end of every move.
+// Smallest rectangle along x and y that contains the start and the end of every move.
 struct ScratchField {
   physics::Sideways<physics::Length> least, most;
 };
 ScratchField scratch_field(const ParticleSet& set);
 
-// Load of the lowest place of the hand if the tip did not sink; 0 if the hand never presses.
+// Load at the hand's lowest place on a sample that does not yield; 0 if the hand never presses.
 physics::Force largest_load(const ParticleSet& set);
 
 // State after one tick.
@@ -35,26 +35,26 @@ struct ScratchSample {
   physics::ScratchTick tick;
 };
 
-// A move: its end, and means of its ticks.
+// Result of a move: its last tick, and means over its ticks.
 struct ScratchedMove {
   ScratchSample end;
-  physics::MarkVolumes volumes;    // at its end, since the start
-  bool marks = false;              // in any tick
-  physics::Force load, lateral;    // means of the second half of the move, where a groove has its depth
-  physics::Length depth;           // under load, the same
-  physics::GrooveSection section;  // along a move that marks, at its end, without load
+  physics::MarkVolumes volumes;    // volumes at the end of the move, since the start of the run
+  bool marks = false;              // true: the tip leaves a mark in at least one tick
+  physics::Force load, lateral;    // means of the second half of the move, where the groove has its full depth
+  physics::Length depth;           // depth under load, mean of the second half of the move
+  physics::GrooveSection section;  // section without load, at the end of a move that marks
 };
 
 struct ScratchRun {
   double seconds = 0.0;
   std::size_t ticks = 0, lagging = 0;
-  double least_margin_j = 0.0;         // least certificate of all ticks
+  double least_margin_j = 0.0;         // smallest certificate of all ticks
   std::vector<ScratchSample> samples;  // evenly spaced in time, including the last
   std::vector<ScratchedMove> moves;
-  physics::ScanImage image;  // heights at the end, when the tip has left; one channel
+  physics::ScanImage image;  // heights after the tip has left; one channel
 };
 
-// `set` has a soft sample, and was loaded; `samples` is at least 2.
+// `set` is a loaded set with a soft sample; `samples` is at least 2.
 ScratchRun play_scratch(const ParticleSet& set, physics::Frequency rate, std::size_t samples);
 
 }  // namespace afm::scene

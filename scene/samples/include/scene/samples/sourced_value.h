@@ -15,7 +15,7 @@ struct SourcedValue {
   bool estimated = false;  // not measured for exactly this system; must be mentioned wherever the number is shown
 };
 
-// Null if there is none with the key.
+// Null if no value has the key.
 const SourcedValue* find_source(std::span<const SourcedValue> sources, std::string_view key);
 
 }  // namespace afm::scene

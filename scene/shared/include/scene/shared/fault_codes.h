@@ -28,7 +28,7 @@ enum class FaultCode : std::uint32_t {
 
 struct FaultText {
   FaultCode code;
-  const char* key;     // key in assets/guidance; that of None introduces a reason for the missing force
+  const char* key;     // key in assets/guidance; that of None introduces the reason for a missing force
   const char* reason;  // English text for the log
 };
 

@@ -23,17 +23,17 @@ struct Topography {
 
 // Meaning of a surface's heights.
 enum class Heights {
-  Drawn,   // heights of the sample, still to be traced by a tip
+  Drawn,   // heights of the sample, not yet traced by a tip
   Traced,  // heights of an apex that traced the sample: a microscope's image
-  Scaled   // another quantity of a place, times a length
+  Scaled   // another quantity of each place, as a length
 };
 
 // Surface under the tip, as felt: a view of a grid of heights owned elsewhere.
 struct FeltHeights {
-  std::uint32_t columns = 0;  // 0: the plane z = 0
+  std::uint32_t columns = 0;  // 0: no grid, the plane z = 0
   std::uint32_t rows = 0;
   double spacing_m = 0;
-  double height_factor = 1;  // factor of the heights below
+  double height_factor = 1;  // factor applied to height_m
   std::span<const float> height_m;
   Heights heights = Heights::Drawn;
 
@@ -62,8 +62,8 @@ struct FeltHeights {
   }
 };
 
-// Size of a contact's surface, relative to its own, for a tip that is released at this Z. The picture fits the stroke,
-// so a sample that keeps its place in the picture, and in the hand, has the size of the stroke.
+// Size of a contact's surface relative to its original size, if its tip is released at this Z. The picture fits the
+// stroke, so a surface that grows with the stroke keeps its size in the picture and in the hand.
 double surface_scale(const SharedContact& material, double release_z_m);
 
 // Surface of a material that is valid together with these; a plane if it has none.

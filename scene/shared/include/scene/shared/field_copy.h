@@ -12,7 +12,7 @@
 #include <optional>
 #include <type_traits>
 
-// Copies between a record of the program and the one that a message or a file holds. A function that takes either
+// Copies between a record of the program and its form in a message or file. A function that takes either
 // direction as `copy` names each pair of fields once:
 //
 //   template <class Copy, class Ours, class Sent>
@@ -28,10 +28,10 @@ void convert(const Value& from, Value& to) {
 }
 inline void convert(const glm::dvec3& from, std::array<double, 3>& to) { to = {from.x, from.y, from.z}; }
 inline void convert(const std::array<double, 3>& from, glm::dvec3& to) { to = {from[0], from[1], from[2]}; }
-// w x y z
+// order: w, x, y, z
 inline void convert(const glm::dquat& from, std::array<double, 4>& to) { to = {from.w, from.x, from.y, from.z}; }
 inline void convert(const std::array<double, 4>& from, glm::dquat& to) { to = {from[0], from[1], from[2], from[3]}; }
-// column by column
+// order: column by column
 inline void convert(const glm::dmat4& from, std::array<double, 16>& to) {
   std::copy_n(glm::value_ptr(from), to.size(), to.begin());
 }
@@ -43,7 +43,7 @@ inline void convert(const std::optional<std::size_t>& from, std::int32_t& to) {
 inline void convert(std::int32_t from, std::optional<std::size_t>& to) {
   to = from < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(from));
 }
-// The value read has been checked before: it is an enumerator, and no index is too large.
+// Values were checked when they were read: enumerators are valid, and no index is too large.
 template <class Value>
 concept EnumOrIndex = std::is_enum_v<Value> || std::is_same_v<Value, std::size_t> || std::is_same_v<Value, bool>;
 template <EnumOrIndex Value>

@@ -25,7 +25,7 @@ concept RecordOf = std::same_as<std::remove_const_t<Record>, Block>;
 template <class T>
 concept Described = requires(const T& record) { for_each_field([](const char*, const auto&) {}, record); };
 
-// Same, but descends into fields that are blocks themselves: visits only numbers, enumerators and arrays.
+// Same as for_each_field(), but descends into fields that are blocks: visits only numbers, enumerators and arrays.
 template <class Visit, class... Record>
 constexpr void for_each_leaf(Visit&& visit, Record&... records) {
   for_each_field(
@@ -39,7 +39,7 @@ constexpr void for_each_leaf(Visit&& visit, Record&... records) {
       records...);
 }
 
-// Storage of a record that is never made, so that its fields can be named in a constant expression.
+// Storage of a record that is never constructed, so that its fields can be named in a constant expression.
 template <class Record>
 union UnmadeRecord {
   char none;
@@ -48,14 +48,14 @@ union UnmadeRecord {
   constexpr ~UnmadeRecord() {}
 };
 
-// The fields of a block of the shared scene fill it, since it has no hidden padding. Of any other record as many fields
-// are described as it has members.
+// True if for_each_field() visits every field. The fields of a shared block fill it, since it has no hidden
+// padding; of any other record as many fields must be described as it has members.
 template <class Record>
 constexpr bool all_fields_described() {
   if constexpr (std::is_trivially_copyable_v<Record>) {
     const Record record{};
     std::size_t bytes = 0;
-    // in an array of one, since the bare size of a pointer is taken for a slip
+    // array of one, since clang-tidy mistakes the bare size of a pointer for a slip
     for_each_field([&]<class Value>(const char*, const Value&) { bytes += sizeof(std::array<Value, 1>); }, record);
     if (bytes == sizeof(Record)) return true;
   }

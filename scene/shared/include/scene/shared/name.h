@@ -9,7 +9,7 @@ namespace afm::scene {
 
 inline constexpr std::uint32_t kNameLength = 48;
 
-using Name = std::array<char, kNameLength>;  // zero-terminated UTF-8
+using Name = std::array<char, kNameLength>;  // UTF-8, zero-terminated
 
 // Cuts a longer text, since a name is only for display.
 Name to_name(std::string_view text);

@@ -33,7 +33,7 @@ inline constexpr std::int32_t kNoParticle = -1;
 inline constexpr std::uint32_t kParticlePages = kMaxParticles / kPosesPerPage;
 static_assert(kMaxParticles == physics::kMostParticles);
 
-// Page of a particle, and the pages of so many.
+// Page of a particle, and number of pages for a number of particles.
 constexpr std::uint32_t page_of(std::uint32_t particle) { return particle / kPosesPerPage; }
 constexpr std::uint32_t pages_of(std::uint32_t particle_count) {
   return (particle_count + kPosesPerPage - 1) / kPosesPerPage;
@@ -55,7 +55,7 @@ struct SharedSpecies {
   double rolling_distance_m = 0;
   double tip_adhesion_j_per_m2 = 0;
   physics::ParticleLaw law = physics::ParticleLaw::ContactArea;
-  std::uint16_t sticks = 0;        // 1: the tip holds what it has touched
+  std::uint16_t sticks = 0;        // 1: the tip holds particles that it has touched
   std::uint16_t scatter_seed = 0;  // seed of the scatter of pull-offs; 0: none
 
   bool operator==(const SharedSpecies&) const = default;
@@ -80,15 +80,15 @@ constexpr void for_each_field(Visit&& visit, Record&... species) {
 }
 static_assert(all_fields_described<SharedSpecies>());
 
-// Tip and lever that push, and the scale at which a hand feels them.
+// Tip and lever that push, and the scale at which the hand feels them.
 struct SharedPusher {
   double tip_radius_m = 0;
   double half_angle_rad = 0;
-  double tip_friction = 0;               // mu_t
-  double lateral_spring_n_per_m = 0;     // k_l
-  double normal_spring_n_per_m = 0;      // k_c
-  double contact_stiffness_n_per_m = 0;  // k_n
-  double diameter_in_hand_m = 0.010;     // median particle; less if the particles would not fit into the workspace
+  double tip_friction = 0;               // mu_t, coefficient of friction between tip and particle
+  double lateral_spring_n_per_m = 0;     // k_l, lateral stiffness of the lever
+  double normal_spring_n_per_m = 0;      // k_c, normal stiffness of the lever
+  double contact_stiffness_n_per_m = 0;  // k_n, stiffness of the contact
+  double diameter_in_hand_m = 0.010;     // width of the median particle in the hand; less if the workspace is too small
   double threshold_on_hand_n = 1.0;      // force on the hand at which the median particle yields
 
   bool operator==(const SharedPusher&) const = default;
@@ -109,7 +109,7 @@ static_assert(all_fields_described<SharedPusher>());
 
 // Particle before the first push.
 struct SharedParticle {
-  double x_m = 0;  // centre
+  double x_m = 0;  // x of the centre
   double y_m = 0;
   std::uint32_t species = 0;  // index into SharedParticles::species
   std::uint32_t pinned = 0;   // 1: never moves
@@ -128,11 +128,11 @@ static_assert(all_fields_described<SharedParticle>());
 
 // physics::StickyPad in plain numbers, SI.
 struct SharedPad {
-  double x_m = 0;  // middle
+  double x_m = 0;  // x of the middle
   double y_m = 0;
-  double half_width_m = 0;  // along x
+  double half_width_m = 0;  // half the extent along x
   double half_height_m = 0;
-  double work_of_adhesion_j_per_m2 = 0;  // 0: there is no such pad
+  double work_of_adhesion_j_per_m2 = 0;  // 0: no pad
 
   bool operator==(const SharedPad&) const = default;
 };
@@ -152,9 +152,9 @@ inline constexpr std::uint32_t kLargestSeed = 65535;
 
 // Distance of the particles' picture from the particles: level and seed of scene::PushScript.
 struct SharedLevel {
-  std::uint32_t level = 0;    // 0: the particles are shown; 1: the computed picture is right; 2: drift and scatter
+  std::uint32_t level = 0;    // 0: particles as they are; 1: computed picture without errors; 2: drift and scatter
   std::uint32_t seed = 1;     // seed of drift and scatter, 1 to 65535
-  std::int64_t since_ns = 0;  // start of the drift, a time as in TipState; 0: first tick of the servo
+  std::int64_t since_ns = 0;  // start of the drift on the clock of TipState; 0: first tick of the servo
 
   bool operator==(const SharedLevel&) const = default;
 };
@@ -168,20 +168,20 @@ constexpr void for_each_field(Visit&& visit, Record&... level) {
 static_assert(all_fields_described<SharedLevel>());
 
 struct SharedParticles {
-  std::uint32_t count = 0;  // 0: there are none, and all else is ignored
+  std::uint32_t count = 0;  // 0: no particles, and all other fields are ignored
   std::uint32_t species_count = 0;
   SharedPusher pusher{};
   std::array<SharedSpecies, kMaxSpecies> species{};
   std::array<SharedParticle, kMaxParticles> particles{};
-  // for rods only; sessions store them separately, so that those without rods are unchanged
+  // only for rods; sessions store these separately, so that those without rods are unchanged
   std::array<double, kMaxSpecies> length_m{};     // length of a species' axis; 0: spheres
   std::array<double, kMaxParticles> angle_rad{};  // angle of a rod's axis from x
-  // stored separately in sessions, too
+  // stored separately in sessions as well
   std::array<SharedPad, physics::kMostStickyPads> pads{};
-  std::array<double, kMaxSpecies> island_radius_m{};  // R of a species of flat islands; 0: none
+  std::array<double, kMaxSpecies> island_radius_m{};  // radius R of a species of flat islands; 0: not islands
   SharedLevel level{};
-  SharedSoft soft{};  // instead of particles, of which there are none then
-  SharedInk ink{};    // the same
+  SharedSoft soft{};  // soft sample, which replaces the particles; `count` is then 0
+  SharedInk ink{};    // ink, which also replaces the particles
 
   bool operator==(const SharedParticles&) const = default;
 };
@@ -191,10 +191,10 @@ inline bool has_marks(const SharedParticles& particles) {
   return particles.soft.hardness_pa > 0.0 || particles.ink.molecules_per_s > 0.0;
 }
 
-// True if there is something on the scale Particles.
+// True if the scale Particles has something to show: particles, or a sample for marks.
 inline bool are_there(const SharedParticles& particles) { return particles.count > 0 || has_marks(particles); }
 
-// True if a species is one of rods, or of flat islands, which all others are then, too.
+// True if a species consists of rods, or of flat islands; a set never mixes them with others.
 bool has_rods(const SharedParticles& particles);
 bool has_islands(const SharedParticles& particles);
 
@@ -205,10 +205,10 @@ bool has_pads(const SharedParticles& particles);
 // True if the tip lifts spheres of a valid set off the sample or off a pad.
 bool has_lift(const SharedParticles& particles);
 
-// Reason why particles have no picture of level 1 or 2, or nothing.
+// Reason why the particles cannot have a picture of level 1 or 2; empty if they can.
 std::string why_no_level(const SharedParticles& particles);
 
-// The same for the physics, with the scatter of its level; `particles` is valid (validate in
+// Same particles for the physics, with the scatter of their level; `particles` is valid (validate in
 // scene/shared/shared_segment.h).
 physics::PushSetup push_setup(const SharedParticles& particles);
 std::vector<physics::PlacedParticle> start_places(const SharedParticles& particles);
@@ -217,8 +217,8 @@ std::vector<physics::PlacedParticle> start_places(const SharedParticles& particl
 
 enum class PushTool : std::uint16_t { OfSet = 0, Push = 1, Grip = 2 };
 
-// Settings that a person changes among particles, each the number of one of its values (scene/shared/push_values.h);
-// 0: as the set has it.
+// Settings that a person changes among particles, each an index into its values (scene/shared/push_values.h);
+// 0: value of the set.
 struct PushSettings {
   PushTool tool = PushTool::OfSet;
   std::uint16_t law = 0;
@@ -241,12 +241,12 @@ constexpr void for_each_field(Visit&& visit, Record&... settings) {
 }
 static_assert(all_fields_described<PushSettings>());
 
-// Straight way on which a person plans to push a sphere, in the sample's frame, metres. Stored whenever it changes,
+// Straight path on which a person plans to push a sphere, in the sample's frame, metres. Stored whenever it changes,
 // recorded with every tick.
 struct PlannedPush {
-  std::array<double, 2> from_m{};       // centre of the sphere when it was planned
-  std::array<double, 2> to_m{};         // place that it is to reach
-  std::int32_t particle = kNoParticle;  // none: no plan, and all fields have their defaults
+  std::array<double, 2> from_m{};       // centre of the sphere at the time of planning
+  std::array<double, 2> to_m{};         // goal of the sphere's centre
+  std::int32_t particle = kNoParticle;  // index of the sphere; none: no plan, and all fields have their defaults
   std::uint32_t guided = 0;             // 1: a groove guides the hand (haptics/felt_groove.h)
 
   bool operator==(const PlannedPush&) const = default;
@@ -261,18 +261,18 @@ constexpr void for_each_field(Visit&& visit, Record&... plan) {
 }
 static_assert(all_fields_described<PlannedPush>());
 
-// Shortest way of a plan, and the farthest coordinate of its ends: beyond the range of any scanner.
+// Shortest length of a plan, and the largest coordinate of its ends: beyond the range of any scanner.
 inline constexpr double kShortestPlanM = 1e-10;
 inline constexpr double kFarthestPlanM = 1e-3;
 
 // ---- written by touchafm-servo ----
 
 struct ParticlePose {
-  double x_m = 0;  // centre
+  double x_m = 0;  // x of the centre
   double y_m = 0;
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: sample's frame from particle
   physics::PushState moved = physics::PushState::Free;    // latest motion; Free: none yet; Carried: off the sample
-  std::uint32_t rod = 0;  // 1: a rod along x of its frame, or an island: turns only about the vertical
+  std::uint32_t rod = 0;  // 1: rod along x of its frame, or island; turns only about the vertical
 
   bool operator==(const ParticlePose&) const = default;
 };
@@ -287,7 +287,7 @@ constexpr void for_each_field(Visit&& visit, Record&... pose) {
 }
 static_assert(all_fields_described<ParticlePose>());
 
-// Poses of the particles from kPosesPerPage times its number on; default poses beyond the last particle. The servo
+// Poses of the particles from kPosesPerPage times its number onward; default poses beyond the last particle. The servo
 // stores a page when it starts and whenever one of its poses has changed.
 struct ParticlePage {
   std::array<ParticlePose, kPosesPerPage> poses{};
@@ -295,7 +295,7 @@ struct ParticlePage {
   bool operator==(const ParticlePage&) const = default;
 };
 
-// Direction of a rod or of an island's mark, as the physics has it, and back; of a sphere that of the x axis.
+// Direction of a rod or of an island's mark, in the form of the physics, and back; for a sphere, that of its x axis.
 physics::HalfTurn turn_of(const ParticlePose& pose) noexcept;
 void set_turn(ParticlePose& pose, const physics::HalfTurn& turn) noexcept;  // makes it the pose of a rod or an island
 
@@ -304,46 +304,46 @@ void set_turn(ParticlePose& pose, const physics::HalfTurn& turn) noexcept;  // m
 // orientation of a sphere does not.
 std::uint64_t place_mark(std::size_t particle, const ParticlePose& pose) noexcept;
 
-// Digest of the first `count` particles of these pages, which has as many or more.
+// Digest of the first `count` particles of these pages; the pages hold at least `count`.
 std::uint64_t digest_of(std::span<const ParticlePage> pages, std::size_t count) noexcept;
 
-inline constexpr std::uint32_t kMostStrokes = 64;  // number of strokes of the tip that can be taken back
+inline constexpr std::uint32_t kMostStrokes = 64;  // largest number of strokes that can be taken back
 
 // Push in the newest tick. On a soft sample, where no particle is pushed, `lift_n` is the load on the lever, and
 // `state` Holds, or Slides where the tip presses the sample in. With ink it is the load, too, negative for a pull, and
 // `state` is Slides while ink flows. The certificate: given_j plus the energy stored at the
-// start is at least lost_j + stored_j. An account begins whenever the tip is taken off the particles (`accounts`), and
+// start is at least lost_j + stored_j. A new account begins whenever the tip leaves the particles (`accounts`), and
 // only then.
 struct TipPush {
-  std::int64_t time_ns = 0;  // as in TipState
+  std::int64_t time_ns = 0;  // clock of TipState
   std::uint64_t tick = 0;
-  std::uint64_t digest = 0;           // digest_of() all particles, or of marks and tiles that wait
-  std::array<double, 3> base_m{};     // apex on the unbent lever
-  std::array<double, 3> apex_m{};     // apex on the bent lever
+  std::uint64_t digest = 0;           // digest_of() all particles, or of the marks with tiles not yet published
+  std::array<double, 3> base_m{};     // position of the apex on the unbent lever
+  std::array<double, 3> apex_m{};     // position of the apex on the bent lever
   std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
-  double lift_n = 0;                  // force on the lever by the particles, upwards
-  double normal_n = 0;                // N of `particle`
+  double lift_n = 0;                  // upward force of the particles on the lever
+  double normal_n = 0;                // normal force N on `particle`
   double threshold_n = 0;             // lateral force at which `particle` starts or keeps moving
-  double other_threshold_n = 0;       // threshold at rest, without load, by the law of other_law(); 0: unknown
-  double given_j = 0;                 // by the hand, upper bound
-  double work_j = 0;                  // by the hand
-  double lost_j = 0;                  // friction and slips
-  double stored_j = 0;                // in lever and contacts
-  double hand_m_per_m = 0;            // scale of the particles: metres of hand per metre, along and upwards
+  double other_threshold_n = 0;       // threshold at rest, without load, by other_law(); 0: unknown
+  double given_j = 0;                 // upper bound of the energy given by the hand
+  double work_j = 0;                  // work of the hand
+  double lost_j = 0;                  // energy lost in friction and slips
+  double stored_j = 0;                // energy stored in lever and contacts
+  double hand_m_per_m = 0;            // scale of the particles in all directions: metres of hand per metre
   double hand_n_per_n = 0;            // newtons on the hand per newton of a push
-  double softened_sideways = 1;       // factor by which the lever feels softer than it is, so that a hand can bear it
+  double softened_sideways = 1;       // softening of the lever by this factor, so that the hand can hold it
   double softened_upwards = 1;
-  std::uint64_t yields = 0;     // number of times that a particle yielded, since the servo's start
-  std::uint64_t exhausted = 0;  // ticks at whose end a heap was not at rest, since the servo's start
+  std::uint64_t yields = 0;     // number of yields of particles since the servo's start
+  std::uint64_t exhausted = 0;  // number of ticks that ended with a heap not at rest, since the servo's start
   std::uint64_t accounts = 0;
-  std::int32_t particle = kNoParticle;  // the one with the largest normal force, or on the tip
+  std::int32_t particle = kNoParticle;  // particle with the largest normal force, or held by the tip
   physics::PushState state = physics::PushState::Free;
-  std::uint8_t met = 0;             // 1: the tip meets particles; 0: another scale, no force, or a wait for a lift
+  std::uint8_t met = 0;             // 1: tip among particles; 0: another scale, no force, or a wait for a lift
   std::uint8_t lagging = 0;         // 1: the hand was so fast that base_m is behind it
   std::uint16_t strokes = 0;        // number of strokes that can be taken back
   PushSettings settings{};          // settings in use; the tool is Push or Grip, OfSet without particles
-  double rise_m = 0;                // by which a lever on a soft sample is raised, because the hand is fast
-  double fastest_hand_m_per_s = 0;  // speed of the hand from which on it is; 0: no soft sample
+  double rise_m = 0;                // height by which the lever on a soft sample is raised while the hand is fast
+  double fastest_hand_m_per_s = 0;  // speed of the hand above which the lever is raised; 0: no soft sample
   InkPush ink{};
 };
 
@@ -382,7 +382,7 @@ constexpr void for_each_field(Visit&& visit, Record&... push) {
 }
 static_assert(all_fields_described<TipPush>());
 
-// Law whose threshold is shown next to that of a species, because the laws disagree.
+// Law whose threshold is shown beside that of a species, because the laws disagree.
 constexpr physics::ParticleLaw other_law(physics::ParticleLaw law) {
   return law == physics::ParticleLaw::ContactArea ? physics::ParticleLaw::Amontons : physics::ParticleLaw::ContactArea;
 }

@@ -7,7 +7,7 @@
 
 namespace afm::scene {
 
-// The place of a body in the room frame as messages and files hold it: metres, right-handed, +y up.
+// Position and orientation of a body in the room frame, for messages and files: metres, right-handed, +y up.
 struct Pose {
   std::array<double, 3> position_m{};
   std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, w x y z: room from body

@@ -13,7 +13,7 @@
 #include "physics/units.h"
 #include "scene/shared/particle_blocks.h"
 
-// Values of the settings that a person changes among particles (PushSettings), and what each changes. Any thread.
+// Values of the settings that a person changes among particles (PushSettings), and their effects. Any thread.
 namespace afm::scene {
 
 // PushTool is the use of the tip among particles. Push: it lets go of what it touched. Grip: it holds spheres of every
@@ -30,7 +30,7 @@ static_assert(core::has_row_for_each(kPushTools, &PushToolText::tool));
 
 constexpr const PushToolText& text_of(PushTool tool) { return kPushTools[core::index_of(tool)]; }
 
-// Springs of a lever upwards; the one sideways changes in proportion, as if the lever were thinner or thicker.
+// Normal stiffnesses of a lever; the lateral one changes in proportion, as if the lever were thinner or thicker.
 inline constexpr std::array kLeverValues{physics::Stiffness(0.0), physics::Stiffness(0.1), physics::Stiffness(1.0),
                                          physics::Stiffness(10.0), physics::Stiffness(40.0)};
 
@@ -38,12 +38,12 @@ inline constexpr std::array kLeverValues{physics::Stiffness(0.0), physics::Stiff
 inline constexpr std::array kTipValues{physics::Length(0.0), physics::Length(5e-9), physics::Length(10e-9),
                                        physics::Length(20e-9), physics::Length(40e-9)};
 
-// A medium changes every work of adhesion: its share, plus that of a meniscus. Both are estimated, as is all else that
-// stays: friction and elasticity.
+// A medium changes every work of adhesion: a fraction of it, plus that of a meniscus. Both are estimates, as are the
+// unchanged friction and elasticity.
 struct PushMedium {
   const char* word;
-  const char* source;              // source of the work of adhesion in it
-  double share = 1.0;              // part of the work of adhesion in dry air
+  const char* source;              // source of the work of adhesion in this medium
+  double share = 1.0;              // fraction of the work of adhesion in dry air
   physics::SurfaceEnergy added{};  // 8/3 of a surface tension: 4 pi R gamma = 3/2 pi R W for a wetted sphere
 };
 inline constexpr std::array kMediumValues{
@@ -57,7 +57,7 @@ enum class PushSetting : std::uint8_t { Law = 0, Lever = 1, Tip = 2, Medium = 3,
 
 struct PushSettingText {
   PushSetting setting;
-  const char* name;      // in the log
+  const char* name;      // name in the log
   std::uint16_t values;  // number of its values
 };
 inline constexpr std::array kPushSettings{
@@ -71,41 +71,41 @@ static_assert(core::has_row_for_each(kPushSettings, &PushSettingText::setting));
 
 constexpr const PushSettingText& text_of(PushSetting setting) { return kPushSettings[core::index_of(setting)]; }
 
-// Number of a setting's value, and the settings with another one.
+// Index of a setting's value, and the settings with another one.
 std::uint16_t value_of(const PushSettings& settings, PushSetting setting) noexcept;
 PushSettings with(PushSettings settings, PushSetting setting, std::uint16_t value) noexcept;
 
-// True if every setting has a value of that number.
+// True if every setting's index is within its values.
 bool is_valid(const PushSettings& settings) noexcept;
 
 // Name of a value in the log: "amontons", "40 N/m".
 std::string text_of(PushSetting setting, std::uint16_t value);
 
-// Push or Grip: the tool that a setup is made for.
+// Tool that a setup is made for: Push or Grip.
 PushTool own_tool(const physics::PushSetup& setup) noexcept;
 
 // True if the tip holds spheres of a species with this tool.
 bool sticks_with(PushTool tool, const physics::PushSetup& setup, std::size_t species) noexcept;
 
-// Changes setup or particles to those with valid settings. A law, a medium and a tool leave rods and flat islands as
-// they are; a level leaves the setup as it is. At another level the drift starts anew.
+// Applies valid settings to a setup or to particles. Law, medium and tool leave rods and flat islands
+// unchanged; a level leaves the setup unchanged. Another level restarts the drift.
 void adjust(const PushSettings& settings, physics::PushSetup& setup) noexcept;
 void adjust(const PushSettings& settings, SharedParticles& particles);
 
-// True if a value of a setting, of a set's own settings, changes anything in it.
+// True if a value of one setting, with the set's own values for the others, changes anything in it.
 bool differs(const SharedParticles& particles, PushSetting setting, std::uint16_t value);
 
-// The settings that make a set another, if there are any.
+// Settings that turn a set into another one, if there are any.
 std::optional<PushSettings> settings_between(const SharedParticles& set, const SharedParticles& other);
 
-// Reason why settings cannot be chosen among valid particles.
+// Reason why settings cannot be selected for valid particles.
 struct PushRefusal {
   enum class Why { Marks, NoAdhesion, Picture, Lever, NoNumbers };
   Why why = Why::Marks;
   std::string text;
 };
 
-// Nothing if they can. A device may still be too weak for them.
+// Empty if they can. A device may still be too weak for them.
 std::optional<PushRefusal> refusal(const SharedParticles& particles, const PushSettings& settings);
 
 }  // namespace afm::scene

@@ -24,15 +24,15 @@ enum class MapVibration : std::uint32_t;  // scene/shared/map_vibration.h
 inline constexpr std::uint32_t kMaxNodes = 160;
 inline constexpr std::uint32_t kMaxMaterials = 32;
 inline constexpr std::uint32_t kMaxMeasuredCurves = 4;
-inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // per branch
+inline constexpr std::uint32_t kMaxMeasuredPoints = 512;  // points of each branch
 inline constexpr std::uint32_t kMaxHeightFields = 8;
-inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // vertices
-inline constexpr std::uint32_t kMaxTopographySide = 1024;  // points
-inline constexpr std::uint32_t kMaxLawMapSide = 128;       // points
+inline constexpr std::uint32_t kMaxHeightFieldSide = 129;  // largest number of vertices on a side
+inline constexpr std::uint32_t kMaxTopographySide = 1024;  // largest number of points on a side
+inline constexpr std::uint32_t kMaxLawMapSide = 128;       // largest number of points on a side
 inline constexpr std::uint32_t kNoParent = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoMeasuredCurve = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kNoHeightField = 0xFFFFFFFFU;
-inline constexpr std::uint32_t kTopography = 0xFFFFFFFEU;  // instead of a height field: the segment's topography
+inline constexpr std::uint32_t kTopography = 0xFFFFFFFEU;  // value that selects the segment's topography
 
 // ---- constant after the segment is created (written by touchafm before the servo starts) ----
 
@@ -43,7 +43,7 @@ struct SharedNode {
   std::array<double, 16> parent_from_node{};  // column-major rest transform
 };
 
-// Metres of the nanoworld, drawn and felt, per metre measured by the instrument: along the sample and upwards.
+// Metres of the nanoworld, drawn and felt, per metre measured by the instrument: lateral and vertical.
 struct TopographyScale {
   double lateral = 1;
   double vertical = 1;
@@ -56,42 +56,42 @@ struct SharedContact {
   physics::ContactParameters contact{};
   physics::Law law = physics::Law::Paper;
   std::uint32_t measured_curve = kNoMeasuredCurve;  // Law::Measured only: index into SharedModel::curves
-  std::uint32_t exact_hamaker_sphere = 0;           // 0 or 1
-  std::uint32_t has_meniscus = 0;                   // 0 or 1
-  double retardation_wavelength_m = 0;              // 0: no retardation
+  std::uint32_t exact_hamaker_sphere = 0;           // 1: the sphere's exact Hamaker force; 0: its approximation
+  std::uint32_t has_meniscus = 0;                   // 1: `meniscus` applies; 0: no meniscus
+  double retardation_wavelength_m = 0;              // wavelength of retardation; 0: no retardation
   physics::Meniscus meniscus{};
   std::uint32_t dynamic = 0;                    // 1: includes the inertia, damping and thermal noise of the lever
   std::uint32_t height_field = kNoHeightField;  // index into SharedModel::height_fields, or kTopography; none: a plane
   physics::LeverDynamics lever{};
-  TopographyScale topography{};  // kTopography only
-  double surface_release_m = 0;  // Z of the release at which the surface has its own size (surface_scale); 0: at any
-  // The lever taps: a drive swings it, with the resonance and the damping of `lever`. Not dynamic, without friction.
-  double free_amplitude_m = 0;  // zero-to-peak; 0: it does not tap
+  TopographyScale topography{};  // scale of the topography; with kTopography only
+  double surface_release_m = 0;  // release Z at which the surface has its original size (surface_scale); 0: any
+  // Lever in tapping mode: a drive swings it, with the resonance and damping of `lever`. Not dynamic, no friction.
+  double free_amplitude_m = 0;  // zero-to-peak amplitude; 0: no tapping
   double drive_hz = 0;
-  double viscosity_pa_s = 0;  // viscosity under the tip
+  double viscosity_pa_s = 0;  // viscosity of the medium under the tip
   physics::FrictionParameters friction{};
-  std::uint32_t law_map = 0;      // 1: modulus and adhesion are those of the model's map at each place
-  std::uint32_t viscous_map = 0;  // 1: with law_map, a damping that grows with the energy that the law loses there
-  MapVibration map_vibration{};   // with law_map only; zero: none
+  std::uint32_t law_map = 0;      // 1: modulus and adhesion at each place come from the model's map
+  std::uint32_t viscous_map = 0;  // 1: with law_map, damping that grows with the energy lost by the law at each place
+  MapVibration map_vibration{};   // quantity felt as a vibration; with law_map only; zero: none
   std::uint32_t felt_mean_force =
       0;  // 1: of a lever that taps the mean force is felt, as far as an energy tank pays for it
 };
 
-// True if the material is felt by a lever in tapping mode.
+// True if the lever is in tapping mode.
 constexpr bool taps(const SharedContact& material) { return material.free_amplitude_m > 0.0; }
 
-// Curve recorded by an instrument, to be felt; each branch in the order of increasing Z.
+// Curve recorded by an instrument, to be felt; each branch is sorted by increasing Z.
 struct SharedMeasuredCurve {
   std::uint32_t approach_count = 0;
   std::uint32_t retract_count = 0;
-  std::int32_t column = -1;  // pixel of a map, as in curves::MapPixel; -1: not of a map
+  std::int32_t column = -1;  // pixel of a map, as in curves::MapPixel; -1: not from a map
   std::int32_t row = -1;
   physics::MeasuredJumps jumps{};
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> approach{};
   std::array<physics::MeasuredPoint, kMaxMeasuredPoints> retract{};
 };
 
-// Surface of a sample as drawn: heights on a square grid centred on the origin of the sample's frame, row by row from
+// Drawn surface of a sample: heights on a square grid centred on the origin of the sample's frame, row by row from
 // -y to +y, x fastest; metres of the nanoworld along +z.
 struct SharedHeightField {
   std::uint32_t columns = 0;
@@ -100,7 +100,7 @@ struct SharedHeightField {
   std::array<float, kMaxHeightFieldSide * kMaxHeightFieldSide> height_m{};
 };
 
-// Size of the topography that a segment contains after its blocks (scene/shared/felt_heights.h); no columns: none.
+// Size of the topography stored in a segment after its blocks (scene/shared/felt_heights.h); no columns: none.
 struct SharedTopography {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
@@ -126,7 +126,7 @@ struct SharedModel {
   std::uint32_t curve_count = 0;
   std::uint32_t height_field_count = 0;
   std::uint32_t padding = 0;
-  // common scale, as in TipState; 0: the one that suits all of these materials. A replay uses the recorded one.
+  // common scale, as in TipState; 0: the one that suits all of these materials; replays use the recorded one
   double common_hand_m_per_m = 0;
   double common_hand_n_per_n = 0;
   SharedTopography topography{};
@@ -147,24 +147,24 @@ struct SceneTransforms {
   std::array<std::array<double, 16>, kMaxNodes> room_from_node{};
 };
 
-// Material selected with the wand, the scale for feeling it, and the settings among particles. `revision` increases by
-// one with every selection. Another material or scale, or other settings wait until the tip is off the sample. With
-// `release` the force is removed at once, also if all of them stay.
+// Material selected with the wand, scale for feeling it, and settings among particles. `revision` increases by
+// one with every selection. A new material, scale or setting takes effect once the tip is off the sample. With
+// `release` the force is removed at once, even if nothing else changes.
 struct Selection {
   std::int32_t material = -1;  // index into SharedModel::materials; -1: none yet
   std::uint32_t revision = 0;
   ScaleMode scale_mode = ScaleMode::Fit;
-  std::uint32_t release = 0;  // 0 or 1
+  std::uint32_t release = 0;  // 1: the force is removed at once; 0: it stays
   PushSettings settings{};
 };
 
-// Other parameters for one material while the servo runs. `revision` increases by one with every edit, of any material.
+// New parameters for one material while the servo runs. `revision` increases by one with every edit of any material.
 // An edit takes effect like a selection: once the tip is off the sample, without force, in the wait state.
 struct MaterialEdit {
   SharedContact material{};
   std::uint32_t revision = 0;
   std::uint32_t padding = 0;
-  SharedMeasuredCurve curve{};  // Law::Measured only: replaces that of the SharedModel; without points: does not
+  SharedMeasuredCurve curve{};  // replaces that of the SharedModel; Law::Measured only; no points: no change
 };
 
 // Motion that the simulated user makes with the simulated hand; real devices ignore it. A new `revision` starts a
@@ -179,23 +179,23 @@ struct HandScript {
 
 // Relation between a scan on the wall and the hand.
 enum class ScanHand : std::uint32_t {
-  Apart = 0,  // independent
+  Apart = 0,  // scan independent of the hand
   Led = 1,    // a weak spring leads the hand along the scan's path
-  Scans = 2,  // the hand is the scanner
-  Looks = 3,  // independent; a scan looks at particles, pressing so hard that it pushes them
+  Scans = 2,  // hand in the role of the scanner
+  Looks = 3,  // independent scan of particles whose load may push them
 };
 
 // Scan data for the hand, sent once per frame. The servo uses it while is_valid() is true and it is not older than
 // kScanLeadLastsNs; otherwise it assumes Apart.
 struct ScanLead {
-  std::int64_t time_ns = 0;           // CLOCK_MONOTONIC, time of the frame
-  std::array<double, 2> apex_xy_m{};  // Led: scan's tip, Looks: middle of the square, in the sample's frame
-  double height_m = 0;                // Led: height of that tip; Looks: half a side of the square
-  double gain_per_s = 0;            // Scans with feedback only: gain of the integral controller, 0 to kMostScanGainPerS
-  ScanHand hand = ScanHand::Apart;  // Apart: the other fields are ignored
-  std::uint32_t feedback = 0;       // Scans only, 1: the loop moves the tip up and down
-  std::uint32_t revision = 0;       // increases by one with every message
-  std::uint32_t load_pn = 0;        // Looks only: load of its tip, piconewtons
+  std::int64_t time_ns = 0;           // CLOCK_MONOTONIC time of the frame
+  std::array<double, 2> apex_xy_m{};  // Led: tip of the scan; Looks: middle of the square; in the sample's frame
+  double height_m = 0;                // Led: height of the scan's tip; Looks: half a side of the square
+  double gain_per_s = 0;            // gain of the integral controller, 0 to kMostScanGainPerS; Scans with feedback only
+  ScanHand hand = ScanHand::Apart;  // role of the hand; Apart: the other fields are ignored
+  std::uint32_t feedback = 0;       // 1: the loop moves the tip up and down; Scans only
+  std::uint32_t revision = 0;       // counter that increases by one with every message
+  std::uint32_t load_pn = 0;        // load of the scan's tip, piconewtons; Looks only
 
   bool operator==(const ScanLead&) const = default;
 };
@@ -207,19 +207,19 @@ inline constexpr std::uint32_t kMostLookLoadPn = 1'000'000;  // 1 uN
 struct RendererHeartbeat {
   std::int64_t time_ns = 0;
   std::uint64_t frame = 0;
-  std::uint32_t leaving = 0;    // 1: the renderer exits in good order; the servo releases the hand and exits too
-  std::uint32_t stop = 0;       // 1: a person requests zero force at once
-  std::uint32_t unseen = 0;     // 1: the picture is not visible, so no force is applied
-  std::uint32_t take_back = 0;  // number of orders to take a push of particles back, since the renderer's start
-  std::uint32_t put_back = 0;   // the same to put all particles back
-  std::uint32_t look = 0;       // the same to look again at the particles near the tip
+  std::uint32_t leaving = 0;    // 1: normal exit of the renderer; the servo releases the hand and exits too
+  std::uint32_t stop = 0;       // 1: request of a person for zero force at once
+  std::uint32_t unseen = 0;     // 1: invisible picture, so no force is applied
+  std::uint32_t take_back = 0;  // number of requests to take back a push, since the renderer's start
+  std::uint32_t put_back = 0;   // number of requests to put all particles back
+  std::uint32_t look = 0;       // number of requests for a second look at the particles near the tip
 };
 
 // ---- written by touchafm-servo ----
 
 enum class ServoState : std::uint32_t { Disarmed = 0, Arming = 1, Running = 2, Fading = 3, Fault = 4 };
 
-// False: there is no force, or it goes to zero within milliseconds, and a new one needs Turn-On.
+// False: there is no force, or it falls to zero within milliseconds, and a new one needs Turn-On.
 constexpr bool is_armed(ServoState state) { return state != ServoState::Disarmed && state != ServoState::Fault; }
 
 // State of the renderer as detected by the servo.
@@ -240,20 +240,20 @@ struct SharedDevice {
   double max_force_n = 0;
   double max_continuous_force_n = 0;
   double max_stiffness_n_per_m = 0;
-  double max_slew_n_per_s = 0;     // infinite: no limit
-  double max_speed_m_per_s = 0;    // infinite: no limit
-  double max_vibration_n = 0;      // 0: none
-  std::uint32_t has_own_hand = 0;  // 1: a person's or a recorded hand, which ignores HandScript
+  double max_slew_n_per_s = 0;     // largest rate of change of the force; infinite: no limit
+  double max_speed_m_per_s = 0;    // largest speed of the hand; infinite: no limit
+  double max_vibration_n = 0;      // largest amplitude of a vibration; 0: no vibration
+  std::uint32_t has_own_hand = 0;  // 1: hand of a person or a recording, which ignores HandScript
   std::uint32_t padding = 0;
   std::array<double, 3> workspace_min_m{};
   std::array<double, 3> workspace_max_m{};
 };
 
-// Wake-up lateness and work of every tick, microseconds; the last bin holds all longer ones.
+// Histograms of wake-up lateness and work of the ticks, microseconds; the last bin holds all longer ones.
 inline constexpr std::uint32_t kHistogramBins = 2001;
 struct ServoTiming {
   double rate_hz = 0;
-  std::uint32_t policy_fifo = 0;  // 1: SCHED_FIFO
+  std::uint32_t policy_fifo = 0;  // 1: SCHED_FIFO was granted
   std::uint32_t priority = 0;
   std::uint32_t pages_locked = 0;
   std::uint32_t padding = 0;

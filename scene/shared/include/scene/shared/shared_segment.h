@@ -44,12 +44,12 @@ core::Result<void> validate(const SharedParticles& particles);
 
 physics::LawOptions law_options(const SharedContact& material);
 
-// The lever of a material that taps; throws as physics::driven_lever().
+// Lever of a material in tapping mode; throws like physics::driven_lever().
 physics::DrivenLever tapping_lever(const SharedContact& material);
 
 // True if a block is valid: indices within counts, enumerators known, numbers finite.
 bool is_valid(const SharedMeasuredCurve& curve);
-bool is_valid(const SharedLawMap& map);  // exists without a map, too
+bool is_valid(const SharedLawMap& map);  // also valid without a map
 bool is_valid(const SceneTransforms& transforms, const SharedModel& model);
 bool is_valid(const Selection& selection, const SharedModel& model);
 bool is_valid(const HandScript& script);
@@ -63,7 +63,7 @@ bool is_valid(const ParticlePage& page);
 bool is_valid(const PlannedPush& plan, const SharedModel& model);
 bool is_valid(const TipPush& push, const SharedModel& model);
 
-// Reason why a force law cannot be felt with this friction, or nothing. The paper's law is felt as in the paper.
+// Reason why a force law cannot be felt with this friction; empty if it can. The paper's law is felt as in the paper.
 std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus);
 
 // Transform of `node` at rest, composed with its parents. `model` is valid and `node` is less than its node_count.
@@ -88,26 +88,26 @@ class RendererSide {
   std::optional<HandScript> last_hand_script() const noexcept;
   std::optional<MaterialEdit> last_edit(std::uint32_t material) const noexcept;  // material < material_count
 
-  // Empty before the servo's first tick, and if the servo died in the middle of a store.
+  // Empty before the servo's first tick, or if the servo died in the middle of a store.
   std::optional<TipState> tip_state() noexcept;
   std::optional<ServoTiming> servo_timing() const noexcept;  // updated about 5 times a second
 
   std::optional<SharedDevice> device() noexcept;  // empty until a servo has started
 
-  // Empty without particles, and before the servo's first tick.
+  // Empty without particles, or before the servo's first tick.
   std::optional<TipPush> tip_push() noexcept;
 
-  // Page of poses if it is newer than the one returned last by this side. `page` < kParticlePages.
+  // Page of poses if it is newer than the one last returned by this side. `page` < kParticlePages.
   std::optional<ParticlePage> new_particle_page(std::uint32_t page) noexcept;
 
-  // The same for a tile of a soft sample. `tile` < kMarkTiles.
+  // Same for a tile of a soft sample. `tile` < kMarkTiles.
   std::optional<MarkTile> new_mark_tile(std::uint32_t tile) noexcept;
 
-  // Next one in order, or empty.
+  // Next sample or event in order, or empty.
   std::optional<TipSample> pop_sample() noexcept;
   std::optional<TipEvent> pop_event() noexcept;
 
-  std::uint64_t lost_samples() const noexcept;  // pushed into a full ring
+  std::uint64_t lost_samples() const noexcept;  // samples dropped by the servo because the ring was full
   std::uint64_t refused_blocks() const noexcept { return refused_; }
 
  private:
@@ -120,7 +120,7 @@ class RendererSide {
   std::uint64_t refused_ = 0;
 };
 
-// The servo's end of the channels, for its thread only; wait-free, so usable in a tick. The new_...() functions return
+// The servo's end of the channels, only for its thread; wait-free, so usable in a tick. The new_...() functions return
 // each value once: they are empty if nothing new has arrived, and the caller keeps its old value.
 class ServoSide {
  public:
@@ -140,11 +140,11 @@ class ServoSide {
   void push(const TipSample& sample) noexcept;  // counted as lost if the renderer is 16 s behind
   void push(const TipEvent& event) noexcept;
 
-  // Page last stored by this side, for a servo that replaces one that ended and continues with its poses; empty if it
+  // Last page stored by this side, for a servo that replaces one that ended and continues with its poses; empty if it
   // is not valid. `number` < kParticlePages.
   std::optional<ParticlePage> last_particle_page(std::uint32_t number) const noexcept;
 
-  // The same for a tile. `number` < kMarkTiles.
+  // Same for a tile. `number` < kMarkTiles.
   std::optional<MarkTile> last_mark_tile(std::uint32_t number) const noexcept;
 
   std::uint32_t refused_blocks() const noexcept { return refused_; }

@@ -9,7 +9,7 @@
 #include "scene/shared/field_visitor.h"
 #include "scene/shared/name.h"
 
-// Blocks of samples on which a tip leaves marks: of a soft one that it scratches, and of one on which it writes with
+// Blocks of samples on which a tip leaves marks: a soft sample that it scratches, and one on which it writes with
 // ink (docs/manipulation.md, "Scratches" and "Ink").
 namespace afm::physics {
 struct Ink;
@@ -24,7 +24,7 @@ namespace afm::scene {
 // around the origin of the sample.
 struct SharedSoft {
   Name name{};
-  double hardness_pa = 0;  // 0: the sample is not soft, and all else is ignored
+  double hardness_pa = 0;  // 0: no soft sample, and all other fields are ignored
   double reduced_modulus_pa = 0;
   double work_of_adhesion_j_per_m2 = 0;
   double pile_up_share = 0;
@@ -44,21 +44,21 @@ static_assert(all_fields_described<SharedSoft>());
 
 physics::SoftSurface soft_surface(const SharedSoft& soft);
 
-// Squares of a soft sample along x and along y; a tip stays some squares away from its edge.
+// Number of squares of a soft sample along each of x and y; a tip stays some squares away from its edge.
 inline constexpr std::uint32_t kSoftSide = 256;
 
-// Half the side of the square in which a tip of this radius may be.
+// Half the side of the square that a tip of this radius may reach.
 double soft_reach_m(double tip_radius_m) noexcept;
 
-// physics::Ink in plain numbers, SI, and what a hand feels of it. Radius of the tip and normal spring of the lever are
+// physics::Ink in plain numbers, SI, with the quantities felt by a hand. Radius of the tip and normal spring are
 // those of SharedPusher. The field of the tip is a square around the origin of the sample, published as MarkTiles:
 // `pressed_m` is the thickness of the layer where ink covers a square, and 0 elsewhere.
 struct SharedInk {
   Name name{};
-  double molecules_per_s = 0;  // 0: there is no ink, and all else is ignored
+  double molecules_per_s = 0;  // 0: no ink, and all other fields are ignored
   double footprint_m2 = 0;
-  double thickness_m = 0;              // height of the layer, kThickestLayerM at most
-  double surface_tension_n_per_m = 0;  // liquid between tip and sample
+  double thickness_m = 0;              // height of the layer, at most kThickestLayerM
+  double surface_tension_n_per_m = 0;  // surface tension of the liquid between tip and sample
 
   bool operator==(const SharedInk&) const = default;
 };
@@ -77,10 +77,10 @@ inline constexpr double kThickestLayerM = 1e-6;
 
 physics::Ink ink_of(const SharedInk& ink) noexcept;
 
-// Diameter of the dot of a second, which is to have the size of a hand.
+// Diameter of the dot written in one second; the scale of the hand fits it.
 double ink_dot_m(const physics::Ink& ink) noexcept;
 
-// Side of the inked square, kSoftSide of its grid's squares, and half the side of the square in which the tip may be.
+// Side of the inked square, kSoftSide squares of its grid; and half the side of the square that the tip may reach.
 double ink_side_m(const physics::Ink& ink) noexcept;
 double ink_reach_m(const physics::Ink& ink) noexcept;
 
@@ -89,11 +89,11 @@ double meniscus_pull_n(double tip_radius_m, double surface_tension_n_per_m) noex
 
 // ---- written by touchafm-servo ----
 
-// Work of a tip with ink; part of TipPush.
+// State of writing with ink; part of TipPush.
 struct InkPush {
   double covered_m2 = 0;     // area of all strokes
   double flowed_s = 0;       // duration of the newest touch
-  double speed_m_per_s = 0;  // speed along the sample, mean of a tenth of a second
+  double speed_m_per_s = 0;  // speed along the sample, averaged over a tenth of a second
 
   bool operator==(const InkPush&) const = default;
 };
@@ -106,14 +106,14 @@ constexpr void for_each_field(Visit&& visit, Record&... ink) {
 }
 static_assert(all_fields_described<InkPush>());
 
-inline constexpr std::uint32_t kTileSide = 16;  // squares
+inline constexpr std::uint32_t kTileSide = 16;  // number of squares on a side
 inline constexpr std::uint32_t kMarkTiles = (kSoftSide / kTileSide) * (kSoftSide / kTileSide);
 
-// Squares of a soft sample, as physics::MarkedSurface has them, or of ink (SharedInk). The servo stores all of them
+// Squares of a soft sample, as in physics::MarkedSurface, or of ink (SharedInk). The servo stores all of them
 // when it starts, and one that has changed in each tick.
 struct MarkTile {
   std::array<double, std::size_t{kTileSide} * kTileSide> pressed_m{};  // heights under the tip that pressed last
-  std::array<double, std::size_t{kTileSide} * kTileSide> back_m{};     // by which they rise when it has left
+  std::array<double, std::size_t{kTileSide} * kTileSide> back_m{};     // elastic rise of these heights without load
 
   bool operator==(const MarkTile&) const = default;
 };
@@ -126,7 +126,7 @@ std::uint64_t digest_of(std::span<const MarkTile> tiles) noexcept;
 
 inline constexpr double kMostMarkM = 1e-6;
 
-// True if the heights are finite, and no more than kMostMarkM.
+// True if the heights are finite and at most kMostMarkM.
 bool is_valid(const MarkTile& tile);
 
 }  // namespace afm::scene

@@ -15,11 +15,11 @@ namespace afm::scene {
 
 // Tip and lever, computed by the force law. Heights along +z of the sample.
 struct Tip {
-  double z_m = 0;      // piezo displacement Z above the surface below the tip: the hand's input
-  double force_n = 0;  // on the tip, positive away from the sample; tapping: its mean over a swing
+  double z_m = 0;      // piezo displacement Z above the surface below the tip: the input from the hand
+  double force_n = 0;  // force on the tip, positive away from the sample; tapping: mean over a swing
   double height_m = 0;
-  double deflection_m = 0;          // delta_c, positive towards the sample
-  double sample_deformation_m = 0;  // delta_s
+  double deflection_m = 0;          // delta_c, deflection of the lever, positive towards the sample
+  double sample_deformation_m = 0;  // delta_s, deformation of the sample
 };
 
 template <class Visit, RecordOf<Tip>... Record>
@@ -34,7 +34,7 @@ static_assert(all_fields_described<Tip>());
 
 // Swing of a lever in tapping mode; zero without tapping.
 struct Swing {
-  double amplitude_m = 0;  // zero-to-peak
+  double amplitude_m = 0;  // zero-to-peak amplitude
   double phase_rad = 0;    // lag behind the drive
 };
 
@@ -62,7 +62,7 @@ static_assert(all_fields_described<SurfacePoint>());
 // Hand, in the device frame, as reported by the device.
 struct HandState {
   std::array<double, 3> position_m{};
-  std::array<double, 3> force_n{};  // sent to the device, after the safety governor
+  std::array<double, 3> force_n{};  // force sent to the device, after the safety governor
 };
 
 template <class Visit, RecordOf<HandState>... Record>
@@ -91,7 +91,7 @@ struct ActiveContact {
   double release_z_m = 0;  // Z at and above which the tip is always free
   double slow_motion = 1;  // duration of a second of the lever's physics, in seconds; 1 without dynamics
   ScaleMode scale_mode = ScaleMode::Fit;
-  std::uint32_t edit_revision = 0;  // MaterialEdit in effect; 0: none
+  std::uint32_t edit_revision = 0;  // revision of the MaterialEdit in effect; 0: none
 };
 
 template <class Visit, RecordOf<ActiveContact>... Record>
@@ -104,9 +104,9 @@ constexpr void for_each_field(Visit&& visit, Record&... active) {
 }
 static_assert(all_fields_described<ActiveContact>());
 
-// Law below the tip of a material whose modulus and adhesion change from place to place, as felt; zero for any other.
+// Law below the tip, as felt, for a material whose modulus and adhesion vary from place to place; zero for any other.
 struct LawHere {
-  double reduced_modulus_pa = 0;  // E*
+  double reduced_modulus_pa = 0;  // reduced modulus E*
   double adhesion_j_per_m2 = 0;   // work of adhesion W
 };
 template <class Visit, RecordOf<LawHere>... Record>
@@ -120,10 +120,10 @@ static_assert(all_fields_described<LawHere>());
 struct SafetyFigures {
   double force_cap_n = 0;  // current limit on the force vector
   double slew_limit_n_per_s = 0;
-  double motor_heat = 0;                  // 0: cold, 1: limit of the motors
-  double thermal_gain = 1;                // share of the force left to let the motors cool
+  double motor_heat = 0;                  // 0: cold; 1: at the limit of the motors
+  double thermal_gain = 1;                // fraction of the force that remains while the motors cool
   double excess_energy_j = 0;             // energy given to the hand beyond what the model and its sampling allow
-  double observer_damping_n_s_per_m = 0;  // added by the passivity observer in this tick
+  double observer_damping_n_s_per_m = 0;  // damping added by the passivity observer in this tick
 };
 
 template <class Visit, RecordOf<SafetyFigures>... Record>
@@ -137,11 +137,11 @@ constexpr void for_each_field(Visit&& visit, Record&... safety) {
 }
 static_assert(all_fields_described<SafetyFigures>());
 
-// Newest requests of the renderer handled by the servo.
+// Newest requests of the renderer that the servo has handled.
 struct Acknowledged {
   std::uint32_t selection = 0;     // revision of the newest Selection in effect
   std::uint32_t refused_edit = 0;  // revision of the newest MaterialEdit that cannot be built
-  std::uint32_t hand_script = 0;   // revision of the newest HandScript that was finished
+  std::uint32_t hand_script = 0;   // revision of the newest HandScript that is finished
 };
 
 template <class Visit, RecordOf<Acknowledged>... Record>
@@ -154,12 +154,12 @@ static_assert(all_fields_described<Acknowledged>());
 
 // Newest state of the tip, once per tick, grouped by the code that computes it.
 struct TipState {
-  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC when the device was read
+  std::int64_t time_ns = 0;  // CLOCK_MONOTONIC time at which the device was read
   std::uint64_t tick = 0;
   Tip tip{};
   Swing swing{};
   SurfacePoint surface{};
-  std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward normal of the surface below the tip, device frame, unit
+  std::array<double, 3> normal{0.0, 1.0, 0.0};  // outward unit normal of the surface below the tip, device frame
   HandState hand{};
   ActiveContact active{};
   LawHere here{};
@@ -172,10 +172,10 @@ struct TipState {
   std::uint32_t dead_man = 0;        // 1: the force lasts only while the button is held
   std::uint32_t realtime = 0;        // 1: SCHED_FIFO and locked pages were granted
   std::uint32_t garbage_blocks = 0;  // shared blocks rejected as out of range
-  std::uint32_t led = 0;             // 1: the scan leads the hand
-  std::uint32_t lead_lost = 0;       // 1: it no longer does, and waits until Turn-On is released
-  std::uint32_t level = 0;           // 1: the hand feels the sample level, due to a scan's feedback
-  std::uint64_t presses = 0;         // presses of Turn-On since the servo started
+  std::uint32_t led = 0;             // 1: hand led by the scan
+  std::uint32_t lead_lost = 0;       // 1: lead lost; resumes once Turn-On is released
+  std::uint32_t level = 0;           // 1: sample felt level, due to a scan's feedback
+  std::uint64_t presses = 0;         // number of presses of Turn-On since the servo started
 };
 
 template <class Visit, RecordOf<TipState>... Record>
@@ -218,10 +218,10 @@ constexpr void for_each_field(Visit&& visit, Record&... lead) {
 }
 static_assert(all_fields_described<ScanLead>());
 
-// State of the sample below the tip from which a picture of some level is computed, recorded in every tick.
+// State from which a picture of the particles at level 1 or 2 is computed, recorded in every tick.
 struct LevelSample {
   std::int64_t since_ns = 0;  // start of the drift; 0: none
-  std::uint64_t met = 0;      // as in TipPush, but 0 at level 0
+  std::uint64_t met = 0;      // `met` of TipPush; 0 at level 0
 };
 
 template <class Visit, RecordOf<LevelSample>... Record>
@@ -233,8 +233,8 @@ static_assert(all_fields_described<LevelSample>());
 
 // Part of a push that is recorded in every tick.
 struct PushSample {
-  std::uint64_t digest = 0;           // as in TipPush; 0: neither particles nor marks
-  std::array<double, 2> lateral_n{};  // as in TipPush, and below
+  std::uint64_t digest = 0;           // `digest` of TipPush; 0: neither particles nor marks
+  std::array<double, 2> lateral_n{};  // force on the lever, along the sample's x and y
   double lift_n = 0;
   double normal_n = 0;
   std::int32_t particle = kNoParticle;
@@ -260,32 +260,32 @@ struct TipSample {
   std::uint64_t tick = 0;
   Tip tip{};
   double hand_height_m = 0;  // height along the sample's normal, device frame
-  double hand_force_n = 0;   // along the sample's normal, positive away from the sample, after the governor
+  double hand_force_n = 0;   // force along the sample's normal, positive away from the sample, after the governor
   ServoState servo_state = ServoState::Disarmed;
   physics::Phase phase = physics::Phase::WaitForLift;
   std::int32_t material = -1;
   std::uint32_t wake_us = 0;        // wake-up lateness of this tick
-  std::uint32_t edit_revision = 0;  // as in ActiveContact
+  std::uint32_t edit_revision = 0;  // revision of the MaterialEdit in effect; 0: none
   std::uint32_t turn_on = 0;        // 1: the button was held
   RendererLink renderer = RendererLink::Absent;
   ScaleMode scale_mode = ScaleMode::Fit;
-  // device frame, from the device's contact point; together with turn_on, renderer and the sample's normal, everything
-  // that a replay needs
+  // device frame, from the device's contact point; with turn_on, renderer and the sample's normal, all inputs that a
+  // replay needs
   std::array<double, 3> hand_from_contact_m{};
-  std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // +z of the sample's frame, unit
-  std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // +x of the sample's frame, unit
+  std::array<double, 3> sample_normal{0.0, 1.0, 0.0};  // unit vector +z of the sample's frame
+  std::array<double, 3> sample_x{1.0, 0.0, 0.0};       // unit vector +x of the sample's frame
   SurfacePoint surface{};
-  double motor_heat = 0;                    // as in SafetyFigures
-  std::uint32_t device_healthy = 1;         // 0: the device failed, and the hand's position is the last one known
+  double motor_heat = 0;                    // 0: cold; 1: at the limit of the motors
+  std::uint32_t device_healthy = 1;         // 0: failed device; the hand's position is the last known one
   std::uint32_t changing = 0;               // 1: force removed for a selection or an edit
   std::array<double, 2> lateral_force_n{};  // friction of the sample on the lever, along the sample's x and y
-  ScanLead scan{};                          // in effect in this tick; default: none
-  PushSample push{};                        // by particles; default: none
-  Swing swing{};                            // default: the lever does not tap
-  PlannedPush plan{};                       // in effect in this tick; default: none
-  std::array<double, 2> guide_n{};  // force of the plan's groove on the hand, along the sample's x and y, unlimited
-  LevelSample level{};              // default: level 0
-  PushSettings settings{};          // as in TipPush; not in session files, whose particles are those for them
+  ScanLead scan{};                          // scan in effect in this tick; default: none
+  PushSample push{};                        // push of particles in this tick; default: none
+  Swing swing{};                            // swing of the lever; default: no tapping
+  PlannedPush plan{};                       // plan in effect in this tick; default: none
+  std::array<double, 2> guide_n{};  // force of the plan's groove on the hand before limits, along the sample's x and y
+  LevelSample level{};              // state of the particles' picture; default: level 0
+  PushSettings settings{};          // settings in use; absent from session files, whose particles already have them
   std::uint32_t padding = 0;
 };
 
@@ -307,7 +307,7 @@ constexpr void for_each_result(Visit&& visit, Record&... sample) {
   visit("level", sample.level...);
 }
 
-// Inputs of the tick: a replay begins with them.
+// Inputs of the tick: a replay starts from them.
 template <class Visit, RecordOf<TipSample>... Record>
 constexpr void for_each_input(Visit&& visit, Record&... sample) {
   visit("time_ns", sample.time_ns...);
@@ -337,12 +337,12 @@ constexpr void for_each_field(Visit&& visit, Record&... sample) {
 }
 static_assert(all_fields_described<TipSample>());
 
-// Transition of the latch, at the point where the path crossed the fold within the tick; or a slip between atoms, for
-// which the forces are the lateral ones: their magnitudes, before and after.
+// Transition of the latch, at the point where the path crossed the fold within the tick; or a slip between atoms,
+// where the forces are the magnitudes of the lateral force before and after.
 struct TipEvent {
   physics::EventKind kind = physics::EventKind::JumpToContact;
   std::int32_t material = -1;
-  std::int64_t time_ns = 0;  // interpolated
+  std::int64_t time_ns = 0;  // interpolated within the tick
   double z_m = 0;
   double force_before_n = 0;
   double force_after_n = 0;
