@@ -21,18 +21,18 @@ enum class Presentation { None, Window };
 
 // One Vulkan device as the `devices` command lists it.
 struct DeviceDescription {
-  std::string name;    // the driver's; the second of two equal ones gets " #2"
+  std::string name;    // name from the driver; the second of two equal ones gets " #2"
   std::string kind;    // "discrete GPU", "CPU", ...
-  std::string driver;  // name and version as the driver reports them
+  std::string driver;  // name and version reported by the driver
   bool usable = false;
-  std::string reason;  // reason why not, empty if usable
+  std::string reason;  // reason why it is not usable; empty if it is
 };
 
 struct ContextOptions {
   Validation validation = Validation::Off;
   Presentation presentation = Presentation::None;
-  std::string gpu{};                  // name of the device, or a part that no other has; empty: the best device
-  HeadsetRuntime* runtime = nullptr;  // a headset shows the pictures: it chooses the device, and `gpu` is empty
+  std::string gpu{};                  // name of the device, or a part of it that is unique; empty: the best device
+  HeadsetRuntime* runtime = nullptr;  // headset that shows the pictures; its runtime chooses the device, `gpu` is empty
 };
 
 // The Vulkan instance, the chosen device and its queue. Prefers a discrete GPU, then an integrated or virtual one, and
@@ -52,7 +52,7 @@ class Context {
 
   const std::string& device_name() const;
 
-  // True if there is no GPU: the processor draws (lavapipe).
+  // True if there is no GPU, so that the processor draws (lavapipe).
   bool draws_on_processor() const;
 
   // True if the device has multiview, which draws both eyes in one pass.

@@ -58,25 +58,25 @@ struct KeyLight {
   glm::vec3 radiance{2.9F, 2.7F, 2.45F};
   glm::vec3 shadow_center_m{0.0F};  // the shadow covers a sphere of this centre and radius
   float shadow_radius_m = 2.5F;
-  float map_share = 1.0F;  // strength of the shadows of the scene's own triangles, 0: none, 1: whole
+  float map_share = 1.0F;  // strength of the shadows of the scene's own triangles, 0 (none) to 1
 };
 
-// Shade of a cone that rests on its rounded end: from arithmetic, with a soft edge at every scale, for a caster that
-// is far larger than what the shadow covers. In frames with fog or a fade.
+// Shade of a cone that rests on its rounded end: computed, with a soft edge at every scale, for a caster
+// far larger than the area of its shadow. In frames with fog or a fade.
 struct ConeShade {
   glm::vec3 apex_m{0.0F};            // lowest point
-  glm::vec3 axis{0.0F, 1.0F, 0.0F};  // unit vector from there into the cone
+  glm::vec3 axis{0.0F, 1.0F, 0.0F};  // unit vector from the apex into the cone
   float radius_m = 0.0F;             // radius of the rounded end
   float slope = 0.0F;                // growth of the radius along the axis
   float height_m = 0.0F;
-  float share = 0.0F;  // strength, 0: no shade
+  float share = 0.0F;  // strength of the shade; 0: none
 };
 
 // Mark at the contact point: a soft shadow that deepens as the tip approaches and, briefly after a jump, a ring of
 // light with radius `ring_radius_m`.
 struct ContactMark {
-  glm::vec3 place_m{0.0F};      // tip apex
-  float shade_radius_m = 0.0F;  // 0: no mark
+  glm::vec3 place_m{0.0F};      // place of the tip's apex
+  float shade_radius_m = 0.0F;  // radius of the shadow; 0: no mark
   glm::vec3 ring_color{0.0F};   // linear radiance
   float ring_radius_m = 0.0F;
 };
@@ -124,7 +124,7 @@ struct PlotCurve {
   std::string label;
   glm::vec3 color{1.0F};  // sRGB
   bool faded = false;     // earlier material, drawn in the background
-  bool filled = false;    // area between both branches in their colour: the energy of the loop
+  bool filled = false;    // true: area between both branches filled, the energy of the loop
   std::vector<PlotPoint> approach;
   std::vector<PlotPoint> retract;
 
@@ -141,7 +141,7 @@ struct PlotMarker {  // labelled value: "Z_jtc 2.40 nm"
 
 // Legend and axis texts of a plot.
 struct PlotWords {
-  std::string approach, retract;  // legend of the dashed and the solid line; empty: no legend, the labels suffice
+  std::string approach, retract;  // legend of the dashed and the solid line; empty: no legend, since labels suffice
   std::string place_axis = "Z (nm)", force_axis = "F (nN)";
   char decimal_mark = '.';
 
@@ -150,7 +150,7 @@ struct PlotWords {
 
 struct DataRow {
   std::string name, value, source;
-  bool detail = false;  // source shown only among the details of its panel
+  bool detail = false;  // true: source shown only among the details of the panel
 
   bool operator==(const DataRow&) const = default;
 };
@@ -165,7 +165,7 @@ struct ForcePanel {
   std::vector<PlotMarker> markers;
   std::optional<PlotPoint> cursor;  // current position of the tip
   std::string stage;                // current part of the cycle, with the letters of the paper's Fig. 2
-  std::string live;                 // the force now, "\u22120.41 nN", in the largest digits; empty: none
+  std::string live;                 // current force in the largest digits, "\u22120.41 nN"; empty: none
   std::vector<DataRow> figures;     // quantities derived from the curves, in a row above them, without sources
 
   bool operator==(const ForcePanel&) const = default;
@@ -175,7 +175,7 @@ struct DataPanel {
   std::string title;
   std::string subtitle;
   std::vector<DataRow> rows;
-  bool details = true;  // all sources; false: without those marked as details, with larger rows where there is room
+  bool details = true;  // true: all sources; false: only those not marked as details, larger if there is room
 
   bool operator==(const DataPanel&) const = default;
 };
@@ -195,7 +195,7 @@ struct Banner {
   std::string state_word;
   StateShape state_shape = StateShape::Circle;
   glm::vec3 state_color{1.0F};  // sRGB
-  std::string scale;            // "sample and motion: 1 m = 33 nm ..."; second line: hand and servo
+  std::string scale;            // scale of sample and motion, "1 m = 33 nm ..."; second line: hand and servo
   std::string warning;          // "not real-time"; empty: none
 
   bool operator==(const Banner&) const = default;
@@ -209,9 +209,9 @@ struct Label {  // short text in the room, such as a swatch's name
   bool operator==(const Label&) const = default;
 };
 
-inline constexpr std::uint32_t kMostGridCells = 510;  // each way; no panel shows more
+inline constexpr std::uint32_t kMostGridCells = 510;  // in each direction, for all panels
 
-// Grid of colours, row by row from the top; at most kMostGridCells each way.
+// Grid of colours, row by row from the top; at most kMostGridCells in each direction.
 struct ColorGrid {
   std::uint32_t columns = 0;
   std::uint32_t rows = 0;
@@ -223,14 +223,14 @@ struct ColorGrid {
 // Target that a ray can hit on a ControlPanel.
 struct ControlTarget {
   enum class Kind { Less, More, Button, Pixel } kind = Kind::Less;
-  std::size_t index = 0;  // index of the row or the button; of a map's pixel, row by row from the top left
+  std::size_t index = 0;  // index of the row or button; for a map's pixel, row by row from the top left
 
   bool operator==(const ControlTarget&) const = default;
 };
 
 struct ControlRow {  // value with one target to decrease it and one to increase it
   std::string name, value;
-  bool changed = false;  // differs from its initial value
+  bool changed = false;  // true: different from its initial value
 
   bool operator==(const ControlRow&) const = default;
 };
@@ -238,12 +238,12 @@ struct ControlRow {  // value with one target to decrease it and one to increase
 // A map in false colours, each of whose pixels can be pointed at.
 struct MapPicture {
   std::string title;
-  std::uint32_t columns = 1, rows = 1;  // size of the map; its grid may have fewer
-  double aspect = 1;                    // width to height
+  std::uint32_t columns = 1, rows = 1;  // size of the map; its grid may be smaller
+  double aspect = 1;                    // ratio of width to height
   ColorGrid grid;
-  std::size_t marked = 0;       // pixel that is felt, as ControlTarget::index
+  std::size_t marked = 0;       // felt pixel, as ControlTarget::index
   std::vector<glm::vec3> bar;   // colours from the lowest to the highest value
-  std::string lowest, highest;  // those values with their unit
+  std::string lowest, highest;  // ends of the range, with unit
 
   bool operator==(const MapPicture&) const = default;
 };
@@ -251,7 +251,7 @@ struct MapPicture {
 // Panel of values that are changed by pointing; render/control_layout.h has the positions of its targets.
 struct ControlPanel {
   std::string title;
-  std::vector<std::string> buttons;  // next to the title
+  std::vector<std::string> buttons;  // texts of the buttons beside the title
   std::vector<ControlRow> rows;
   std::vector<std::string> notes;  // results derived from the values, one per line
   std::string status;              // outcome of the last change
@@ -275,7 +275,7 @@ struct ProfilePlot {
   struct Line {
     std::string label;
     glm::vec3 color{1.0F};  // sRGB
-    bool dashed = false;    // makes lines differ in more than colour
+    bool dashed = false;    // true: dashed, so that lines differ in more than colour
     std::vector<glm::vec2> points;
 
     bool operator==(const Line&) const = default;
@@ -293,10 +293,10 @@ struct ImagePanel {
   std::string title, subtitle;
   std::array<ImageMap, 2> heights;  // trace, retrace
   std::vector<ImageMap> smaller;    // error signal, lateral force
-  ProfilePlot profile;              // the newest line
+  ProfilePlot profile;              // plot of the newest line
   std::string side_unit;            // unit of `side` and `scale_bar`
   double side = 1;                  // side of the scanned square
-  double scale_bar = 1;             // round length
+  double scale_bar = 1;             // round length of the scale bar
   std::optional<double> line;       // scan position, 0 at the top to 1 at the bottom
   double bar_low_nm = 0, bar_high_nm = 1;
   std::vector<glm::vec3> bar;  // colours from the lowest to the highest height
@@ -323,11 +323,11 @@ struct CalibrationPanel {
   bool operator==(const CalibrationPanel&) const = default;
 };
 
-// Placement of a panel that is not shown: it has no area.
+// Placement of a hidden panel, without area.
 inline constexpr PanelPlacement kNoPlacement{
     .lower_left_m = glm::dvec3(0.0), .right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)};
 
-// A panel with a separate place in every frame.
+// A panel with its own placement in every frame.
 template <class Content>
 struct PanelSlot {
   Content content{};
@@ -338,13 +338,13 @@ struct PanelSlot {
 // all of them (docs/adding-a-panel.md). A later panel covers an earlier one.
 struct FramePanels {
   PanelSlot<ForcePanel> force;
-  PanelSlot<ImagePanel> image;  // in the place of the force
-  PanelSlot<ForcePanel> loop;   // friction loop, in the place of the data
+  PanelSlot<ImagePanel> image;  // in place of the force panel
+  PanelSlot<ForcePanel> loop;   // friction loop, in place of the data panel
   PanelSlot<DataPanel> data;
-  PanelSlot<DataPanel> particles;   // in the place of the data
-  PanelSlot<ControlPanel> control;  // in the place of the data
-  PanelSlot<ListPanel> keys;        // covers whatever is there, labels too
-  PanelSlot<Banner> banner;         // covers whatever is there, labels too
+  PanelSlot<DataPanel> particles;   // in place of the data panel
+  PanelSlot<ControlPanel> control;  // in place of the data panel
+  PanelSlot<ListPanel> keys;        // over everything, including labels
+  PanelSlot<Banner> banner;         // over everything, including labels
   PanelSlot<CalibrationPanel> calibration;
 };
 
@@ -357,13 +357,13 @@ inline void hide(FramePanels& panels) {
 struct FrameState {
   std::array<scene::EyeView, 2> eyes;         // left, right; reversed infinite depth
   std::vector<glm::dmat4> room_from_node;     // one per scene node
-  std::vector<std::uint8_t> visible;          // one per scene node, 0 hides the node's own mesh
-  std::vector<scene::NodeIndex> highlighted;  // pointed at or selected by the wand; glow with their children
+  std::vector<std::uint8_t> visible;          // one per scene node; 0 hides the node's own mesh
+  std::vector<scene::NodeIndex> highlighted;  // nodes at which the wand points or that it selected; children glow too
   std::vector<BeamBend> bends;
   std::vector<MeshCopies> copies;            // at most one entry per node
   std::vector<MeshShape> shapes;             // at most one entry per node
-  std::vector<scene::NodeIndex> unshadowed;  // lit as if nothing cast a shadow: their colours include one
-  std::vector<scene::NodeIndex> outlined;    // darker where the surface turns away, in frames with fog
+  std::vector<scene::NodeIndex> unshadowed;  // nodes lit without shadows, because their colours include one
+  std::vector<scene::NodeIndex> outlined;    // nodes darkened where the surface turns away, in frames with fog
   KeyLight key_light;
   ConeShade cone;
   ContactMark contact;
@@ -377,7 +377,7 @@ struct FrameState {
 // Resolution and samples of the room in a frame, independent of its contents and layout. Panels always have all pixels
 // of the eye images, so that their text stays legible.
 struct FrameQuality {
-  double scale = 1.0;         // fraction of the eye images' width and height, (0, 1]; enlarged again below the panels
+  double scale = 1.0;         // fraction of the eye images' width and height, (0, 1]; enlarged below the panels
   std::uint32_t samples = 4;  // 1 or 4, at most RendererOptions::samples
 
   bool operator==(const FrameQuality&) const = default;

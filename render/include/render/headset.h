@@ -27,10 +27,10 @@ struct HeadsetRuntimeParts;
 struct HeadsetDescription {
   std::string runtime;  // name and version
   std::string headset;
-  glm::uvec2 eye_px{0};              // recommended by the runtime
+  glm::uvec2 eye_px{0};              // size recommended by the runtime
   std::optional<double> refresh_hz;  // known only if the runtime reports it before a session runs
-  std::vector<std::string> formats;  // picture formats the runtime accepts, in its order of preference
-  std::vector<std::string> missing;  // optional extensions that are missing, each with the feature lost
+  std::vector<std::string> formats;  // picture formats accepted by the runtime, in its order of preference
+  std::vector<std::string> missing;  // missing optional extensions, each with the feature lost
 };
 
 // Connection to a headset's runtime (OpenXR), loaded at run time. The Context is opened with it, since the runtime
@@ -57,7 +57,7 @@ class HeadsetRuntime {
   std::unique_ptr<HeadsetRuntimeParts> parts_;
 };
 
-// One eye of the wearer, in the room, predicted for the time the frame is seen.
+// One eye of the wearer, in the room, predicted for the time at which the frame is seen.
 struct HeadsetEye {
   scene::HeadPose pose;
   scene::FieldOfView fov;
@@ -69,9 +69,9 @@ struct HeadsetController {
   bool connected = false;
   bool place_valid = false;
   glm::dvec3 position_m{0.0};
-  glm::dquat room_from_controller{1.0, 0.0, 0.0, 0.0};  // points along its -z
+  glm::dquat room_from_controller{1.0, 0.0, 0.0, 0.0};  // orientation; the controller points along its -z
   bool select = false, grab = false, scale = false, home = false;
-  glm::dvec2 fly{0.0};  // stick: to the right, away
+  glm::dvec2 fly{0.0};  // stick deflection: to the right, away from the user
 };
 
 // Shows a renderer's eyes in a headset. In each loop call next_turn(); for Turn::Frame, then call locate_eyes(),
@@ -91,9 +91,9 @@ class Headset {
   ~Headset();
 
   enum class Turn {
-    Off,     // no session runs: the headset is not worn, or it is lost
+    Off,     // no running session: headset not worn, or lost
     Frozen,  // no frame requested by the runtime for kFrozenNs
-    Hidden,  // frame requested, but not visible to anyone
+    Hidden,  // requested frame that nobody can see
     Frame
   };
 
@@ -111,7 +111,7 @@ class Headset {
   std::size_t most_panels() const;
 
   // Shows the renderer's newest frame, drawn for the eyes located last, with its panels apart; never waits. False if
-  // nobody sees it, because there were no eyes or the runtime is gone.
+  // nobody sees it: there were no eyes, or the runtime is gone.
   bool show();
 
   // Age of the eye pose in the newest shown frame when the runtime received the frame. None before the first.

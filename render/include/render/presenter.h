@@ -22,7 +22,7 @@ struct PicturePlace {
 };
 PicturePlace picture_place(glm::uvec2 window_px, glm::uvec2 picture_px, PictureFit fit = PictureFit::Proportions);
 
-// Picture of a frame in a window. In mode dual it is the left eye's: one window has one picture.
+// Picture of a frame in a window. In mode dual it is the left eye's, since one window has one picture.
 struct WindowPicture {
   Composition composition;
   PictureFit fit = PictureFit::Proportions;
@@ -60,7 +60,7 @@ class Presenter {
   // the next frame.
   bool begin(std::span<const WindowPicture> pictures, const std::function<void()>& while_waiting);
 
-  // Draws the renderer's newest frame into those of these windows that have an image, and waits until it is drawn.
+  // Draws the renderer's newest frame into those of the given windows that have an image, and waits until it is drawn.
   void draw(std::span<const std::size_t> windows, const std::function<void()>& while_waiting);
 
   // Shows everything drawn since begin(), in one call: all windows change in the same refresh if the device supports

@@ -45,7 +45,7 @@ struct RendererOptions {
   double panel_millimetre_m = 1e-3;
   PanelContrast panel_contrast = PanelContrast::Normal;
   Lighting lighting = Lighting::Studio;
-  bool time_passes = false;  // needed by pass_times()
+  bool time_passes = false;  // true: pass_times() available
 };
 
 // Device times of the parts of a frame; 0 for parts it did not need.
@@ -53,8 +53,8 @@ struct PassTimes {
   double panels_ms = 0;  // repainting changed panels
   double shadow_ms = 0;
   double eyes_ms = 0;      // both eyes, with the panels in the room
-  double compose_ms = 0;   // newest frame shown in a window or saved
-  double readback_ms = 0;  // newest frame saved
+  double compose_ms = 0;   // composing the newest frame for a window or a file
+  double readback_ms = 0;  // reading the newest frame back for a file
 
   // Time of the whole frame.
   double total_ms() const { return panels_ms + shadow_ms + eyes_ms + compose_ms; }
@@ -83,9 +83,9 @@ class Renderer {
 
   // Reads the newest frame, after waiting for it; at least one frame must have been rendered.
   Image read_eye(scene::Eye eye);
-  // For a mode with one picture; at most as large as the device's images.
+  // Composes the newest frame in a mode with one picture; at most as large as the device's images.
   Image read_composed(const Composition& composition, const ReadArea& area = {});
-  // For a mode with two pictures: the left eye's and the right eye's.
+  // Same for a mode with two pictures, the left eye's and the right eye's.
   std::array<Image, 2> read_pair(const Composition& composition, const ReadArea& area = {});
 
   // Resizes the eye images from the next frame on, after waiting until the device is idle. The panels keep their

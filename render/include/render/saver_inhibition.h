@@ -18,9 +18,9 @@ class SaverInhibition {
 
   struct Way {
     bool works = false;
-    std::string said;  // "suspended", or the reason why not
+    std::string said;  // "suspended", or the reason for a failure
   };
-  const Way& x_server() const { return x_server_; }  // MIT-SCREEN-SAVER, whose suspension also holds for DPMS
+  const Way& x_server() const { return x_server_; }  // MIT-SCREEN-SAVER, which also suspends DPMS
   const Way& session() const { return session_; }    // org.freedesktop.ScreenSaver on the session bus
   bool works() const { return x_server_.works || session_.works; }
 

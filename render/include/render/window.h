@@ -29,12 +29,12 @@ struct WindowInput {
   std::vector<WindowEvent> events;  // events since the last poll, in order
   glm::dvec2 cursor_px{0.0};
   glm::dvec2 origin_px{0.0};     // top left corner of the picture on the desktop; 0,0 if unknown
-  bool close_requested = false;  // the window's own close button
+  bool close_requested = false;  // true: the window's own close button was pressed
 
   // Loss or return of the monitor that the window fills, or of those under its rectangle. Without its monitor, the
   // window continues at a small size on another.
   enum class MonitorChange { None, Lost, Back } monitor_change = MonitorChange::None;
-  std::string monitor;  // monitor of `monitor_change`; empty: under the rectangle
+  std::string monitor;  // name of the monitor in `monitor_change`; empty: one under the rectangle
 
   // Place at which a window manager keeps the window instead of its rectangle; reported once.
   std::optional<scene::PixelRect> refused_place{};
@@ -46,9 +46,9 @@ struct WindowOptions {
   std::uint32_t height = 720;
   bool full_screen = false;
   bool hidden = false;
-  std::string monitor{};                       // monitor to fill, named as in list_monitors(); empty: any
-  std::optional<glm::ivec2> monitor_corner{};  // distinguishes monitors of one name; in desktop units
-  std::optional<scene::PixelRect> rect{};      // rectangle of the desktop, without a frame, instead of width and height
+  std::string monitor{};                       // name of the monitor to fill, as in list_monitors(); empty: any
+  std::optional<glm::ivec2> monitor_corner{};  // corner that distinguishes monitors of the same name, in desktop units
+  std::optional<scene::PixelRect> rect{};      // rectangle on the desktop, without a frame; replaces width and height
 };
 
 class WindowHandle;
@@ -78,10 +78,10 @@ class Window {
   glm::uvec2 size_px() const;
 
   bool full_screen() const;
-  void set_full_screen(bool full_screen);  // on the monitor showing most of it; no effect for a window placed by a rect
+  void set_full_screen(bool full_screen);  // fills the monitor that shows most of it; no effect with a `rect`
 
-  // Labels of the keys A to Z in the layout in use, 26 characters of UTF-8: the letter or, where the layout lacks it,
-  // what its key is labelled with. Empty if it lacks none.
+  // Labels of the keys A to Z in the layout in use, 26 characters of UTF-8: the letter or, if the layout lacks it,
+  // the label of its key. Empty if it lacks none.
   std::string letters() const;
 
   // Refresh rate of the monitor; 60 if unknown.

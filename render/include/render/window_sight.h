@@ -14,7 +14,7 @@ namespace afm::render {
 // Visibility of a window, from the window system's point of view.
 enum class Sight { Seen, Hidden, Covered, Blanked, OffMonitors };
 
-// "the window is minimised, or on another workspace"
+// Explanation such as "the window is minimised, or on another workspace".
 const char* text_of(Sight sight);
 
 // Visibility of windows on an X server: whether at least one is mapped, on the current workspace, on a monitor that is
@@ -28,15 +28,15 @@ class WindowSight {
   WindowSight& operator=(const WindowSight&) = delete;
   ~WindowSight();
 
-  // Visibility of the most visible window.
+  // Visibility of the best visible window.
   Sight newest() const;
 
-  // Time since when no window is seen; none while one is.
+  // Time since which no window has been visible; none while one is.
   std::optional<std::int64_t> unseen_since_ns() const;
 
  private:
   struct Watch;
-  std::unique_ptr<Watch> watch_;  // null: the window system does not report visibility
+  std::unique_ptr<Watch> watch_;  // null if the window system does not report visibility
 };
 
 }  // namespace afm::render

@@ -104,7 +104,7 @@ bool is_exact(const EyeTargets& eyes, const Composition& composition, const Comp
          !composition.warp && seen == glm::uvec2(whole.width, whole.height);
 }
 
-// Pipeline variant for such a picture.
+// Variant of the pipeline for this picture.
 std::uint32_t composing_variant_of(const EyeTargets& eyes, const Composition& composition, const ComposePlace& place) {
   const bool mixed = scene::anaglyph_matrices(composition.mode).has_value();
   return (is_exact(eyes, composition, place) ? 0U : AFM_FEATURE_SCALED) | (mixed ? AFM_FEATURE_MIXED : 0U) |

@@ -31,7 +31,7 @@ struct ComposePlace {
 struct ComposedPicture {
   Composition composition;
   ComposePlace place;
-  std::uint64_t eye_changes = 0;  // EyeChanges::count() at the time of drawing
+  std::uint64_t eye_changes = 0;  // value of EyeChanges::count() at the time of drawing
 };
 
 // Target of a composition: an image with one layer per picture of the mode.
@@ -40,8 +40,8 @@ struct ComposeInto {
   std::span<const vk::ImageView> layers;  // one view per layer
   ImageUse before;                        // previous use of the image; its layout is that of `after`
   ImageUse after;                         // state in which the image is left
-  bool takes_copies = false;              // has the eyes' format and accepts copies
-  std::optional<ComposedPicture>* shown;  // empty before the first picture
+  bool takes_copies = false;              // true: eyes' format, so that it accepts copies
+  std::optional<ComposedPicture>* shown;  // picture in the image; empty before the first one
 };
 
 // Image that pictures are composed into for readback, with one layer per picture of the mode.
@@ -64,7 +64,7 @@ class ComposePipeline {
   const Device* device_;
   vk::PipelineLayout layout_;
   vk::Format format_;
-  std::vector<vk::raii::Pipeline> made_;  // AFM_COMPOSE_VARIANTS entries
+  std::vector<vk::raii::Pipeline> made_;  // AFM_COMPOSE_VARIANTS entries, created at first use
 };
 
 // Combines the two eye images into one picture, byte for byte if it is drawn at its own size. One full-screen shader
@@ -127,7 +127,7 @@ class Composer {
   Buffer anaglyphs_;
   vk::raii::DescriptorPool pool_;
   vk::raii::DescriptorSet set_{nullptr};
-  ComposeTarget target_;  // target of compose()
+  ComposeTarget target_;  // images for compose()
 };
 
 }  // namespace afm::render

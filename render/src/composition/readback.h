@@ -7,7 +7,7 @@
 
 namespace afm::render {
 
-// Copy of all layers of an image with four bytes a pixel in host memory, which is reused for the next one.
+// Copy of all layers of an image with four bytes per pixel in host memory, which is reused for the next one.
 class HostCopy {
  public:
   // Requires the image in eTransferSrcOptimal, and the result of an earlier record() finished and no longer needed.

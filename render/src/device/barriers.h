@@ -22,7 +22,7 @@ struct ImageUse {
 // Uses shared by several passes.
 inline constexpr ImageUse kColorDrawn{
     vk::PipelineStageFlagBits2::eColorAttachmentOutput,
-    // read when a pass loads what another has drawn
+    // read access for a pass that loads the output of another
     vk::AccessFlagBits2::eColorAttachmentRead | vk::AccessFlagBits2::eColorAttachmentWrite,
     vk::ImageLayout::eColorAttachmentOptimal};
 inline constexpr ImageUse kDepthTested{

@@ -63,13 +63,13 @@ class Device {
 
   // Call before destroying resources that the device may still use. Returns at once if the device is lost.
   void wait_idle() const noexcept;
-  void finish_all() const;  // same, but throws vk::SystemError
+  void finish_all() const;  // same as wait_idle(), but throws vk::SystemError
 
   std::uint64_t largest_heap_bytes() const;
 
   // Waits until the device has finished. Throws vk::SystemError; ends the process if it takes longer than
   // kLongestWorkNs, because a hanging device cannot even be closed.
-  static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // GPU drivers give up after about 10 s
+  static constexpr std::uint64_t kLongestWorkNs = 120'000'000'000;  // beyond the 10 s of GPU drivers
   // Interval between calls of `meanwhile`; without one the caller wakes up less often.
   static constexpr std::uint64_t kTurnNs = 5'000'000, kIdleTurnNs = 100'000'000;
   void wait_for(const vk::raii::Fence& fence, const std::function<void()>& meanwhile = {}) const;

@@ -19,14 +19,14 @@ inline constexpr const char* kInstallDriver =
 
 struct ChosenDevice {
   vk::raii::PhysicalDevice physical{nullptr};
-  std::string name;  // as list_devices() gives it
+  std::string name;  // name as in list_devices()
   std::uint32_t queue_family = 0;
 };
 
 // DeviceMissing says what to install.
 core::Result<std::vector<vk::raii::PhysicalDevice>> physical_devices(const vk::raii::Instance& instance);
 
-// The distinct name of each device, in the same order.
+// Distinct name of each device, in the same order.
 std::vector<std::string> device_names(const std::vector<vk::raii::PhysicalDevice>& devices);
 
 // Reason why the renderer cannot use this device; empty if it can.
@@ -35,7 +35,7 @@ std::string missing_ability(const vk::raii::PhysicalDevice& physical);
 // Kind of device in words: "discrete GPU", "CPU".
 std::string kind_of(vk::PhysicalDeviceType type);
 
-// The device that `gpu` names, as find_device() reads it; if empty, the best: a discrete GPU before an integrated or
+// Device named by `gpu`, as in find_device(); if empty, the best one: a discrete GPU before an integrated or
 // virtual one, and a CPU device last. `source`, which may be null, has one device, and `gpu` is then empty.
 // DeviceMissing: none serves; WrongUsage: `gpu` is ambiguous.
 core::Result<ChosenDevice> choose_device(const vk::raii::Instance& instance, Presentation presentation,

@@ -12,7 +12,7 @@ GpuTimer::GpuTimer(const Device& device) : stopwatch_(device, kFrameMarks) {}
 
 void GpuTimer::mark(const vk::raii::CommandBuffer& command, Mark mark) const {
   if (mark == Mark::PanelsBegin || mark == Mark::ShadowBegin || mark == Mark::EyesBegin) {
-    stopwatch_.reset(command, static_cast<std::uint32_t>(mark), 2);  // with its end mark
+    stopwatch_.reset(command, static_cast<std::uint32_t>(mark), 2);  // start mark together with its end mark
   }
   stopwatch_.mark(command, static_cast<std::uint32_t>(mark));
 }

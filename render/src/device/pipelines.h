@@ -22,15 +22,15 @@ struct PipelineRequest {
   std::span<const vk::VertexInputBindingDescription> bindings{};
   std::span<const vk::VertexInputAttributeDescription> attributes{};
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
-  vk::Format color_format = vk::Format::eUndefined;  // format of the colour image; eUndefined: no colour
+  vk::Format color_format = vk::Format::eUndefined;  // format of the colour image; eUndefined: none
   vk::Format depth_format = vk::Format::eUndefined;
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   std::uint32_t view_mask = 0;
   Blending blending = Blending::Opaque;
   DepthUse depth = DepthUse::None;
   vk::CompareOp depth_compare = vk::CompareOp::eGreater;  // reversed depth
-  std::uint32_t variant = 0;                              // AFM_CONSTANT_VARIANT of both shaders
-  bool one_light = false;                                 // AFM_CONSTANT_ONE_LIGHT
+  std::uint32_t variant = 0;                              // value of AFM_CONSTANT_VARIANT in both shaders
+  bool one_light = false;                                 // value of AFM_CONSTANT_ONE_LIGHT
 };
 
 vk::raii::Pipeline create_pipeline(const Device& device, const PipelineRequest& request);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned kDigitBits = 11, kKeyBits = 32;
 constexpr std::uint32_t kDigits = 1U << kDigitBits;
-constexpr std::size_t kFew = 128;  // draws; comparing these takes less time than counting digits
+constexpr std::size_t kFew = 128;  // number of draws; comparing so few takes less time than counting digits
 
 }  // namespace
 

@@ -20,7 +20,7 @@ class DistanceOrder {
 
  private:
   struct Placed {
-    std::uint32_t key = 0;  // bits of the distance, whose order is that of the numbers
+    std::uint32_t key = 0;  // bits of the distance, which sort like the number
     std::uint32_t draw = 0;
   };
   void sort_by_digit(unsigned lowest_bit);

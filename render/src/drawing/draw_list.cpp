@@ -14,7 +14,7 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint32_t kManyTriangles = 10'000;  // per draw; smaller ones cost little
+constexpr std::uint32_t kManyTriangles = 10'000;  // number per draw; smaller draws cost little
 constexpr double kFineEdgePx = 8.0;               // limit for nine triangles in ten
 constexpr double kLongestEdgePx = 32.0;           // limit for all triangles: the sides of a slab with a fine surface
 
@@ -27,7 +27,7 @@ struct Sight {
 
 Sight sight(const glm::dmat4& clip_from_room, const glm::dmat4& room_from_node, const DrawBox& box, double guard_band) {
   const glm::dmat4 rows = glm::transpose(clip_from_room * room_from_node);
-  const glm::dvec4 near = rows[3] - rows[2];  // reversed depth: the near plane is z = w
+  const glm::dvec4 near = rows[3] - rows[2];  // near plane of a reversed depth: z = w
   Sight sight{.seen = range(near, box).second >= 0.0, .clipped = range(near, box).first < 0.0};
   for (glm::length_t axis = 0; axis < 2; ++axis) {
     for (const double side : {-1.0, 1.0}) {
@@ -40,7 +40,7 @@ Sight sight(const glm::dmat4& clip_from_room, const glm::dmat4& room_from_node, 
 
 struct Scale {
   double most = 0;     // metres per unit of the node, along its largest axis
-  double stretch = 1;  // most / least: largest magnification of an angle between normals
+  double stretch = 1;  // ratio of largest to smallest unit: largest magnification of an angle between normals
 };
 Scale scale_of(const glm::dmat4& room_from_node) {
   const glm::dmat3 linear(room_from_node);
@@ -78,7 +78,7 @@ bool is_smooth(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& ro
 
 Shading shading(const Draw& draw, const scene::EyeView& eye, const glm::dmat4& room_from_node, double pixels_high) {
   if (is_fine(draw, eye, room_from_node, pixels_high)) return Shading::ByVertex;
-  if (draw.reshaped) return Shading::ByFragment;  // its normals may turn
+  if (draw.reshaped) return Shading::ByFragment;  // shape with normals that may turn
   return is_smooth(draw, eye, room_from_node) ? Shading::LightByVertex : Shading::ByFragment;
 }
 

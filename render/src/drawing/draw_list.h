@@ -14,19 +14,19 @@ namespace afm::render {
 enum class Shading : std::uint8_t {
   ByFragment,
   ByVertex,      // triangles about as small as the pixels of an eye
-  LightByVertex  // rough, with small turns from vertex to vertex; shadows per fragment
+  LightByVertex  // rough surfaces with small turns from vertex to vertex; shadows per fragment
 };
 
 // Draws of a frame: indices into SceneGeometry::draws().
 struct DrawList {
-  std::vector<std::uint32_t> shadow;   // all opaque casters that are shown, in view or not
+  std::vector<std::uint32_t> shadow;   // all visible opaque casters, in view or not
   std::vector<std::uint32_t> opaque;   // in view, from near to far, so that hidden surfaces are not shaded
   std::vector<std::uint32_t> blended;  // in view, from far to near
   std::vector<std::uint8_t> mirrored;  // indexed by draw; 1 if the node mirrors its mesh
   std::vector<Shading> shading;        // indexed by draw; ByFragment for draws out of view
   std::vector<std::uint32_t> copies;   // indexed by draw; 1 for a draw without room for copies
-  bool hazy = false;                   // fog is visible
-  bool clipped = false;                // an eye's near plane or guard band cuts through a draw
+  bool hazy = false;                   // true: visible fog
+  bool clipped = false;                // true: draw cut by an eye's near plane or guard band
 
   bool operator==(const DrawList&) const = default;
 };

@@ -30,7 +30,7 @@ class Enlarger {
   vk::raii::Sampler color_sampler_, depth_sampler_;
   vk::raii::DescriptorPool pool_;
   vk::raii::DescriptorSet set_{nullptr};
-  bool bound_ = false;  // the set shows the current eye images
+  bool bound_ = false;  // true: the set contains the current eye images
 };
 
 }  // namespace afm::render

@@ -216,7 +216,7 @@ void EyeTargets::end_enlarged(const vk::raii::CommandBuffer& command, std::size_
   record_barriers(command, {image_barrier(*color_.image.image, kColorAspect, kColorDrawn, kEyesRead, layers_of(pass))});
 }
 
-// The enlargement blends neighbours.
+// Area that depends on an area of the drawn room; the enlargement blends neighbours.
 PixelArea EyeTargets::enlarged(const PixelArea& drawn) const {
   if (!reduced() || drawn.everything()) return drawn;
   const glm::dvec2 scale(static_cast<double>(extent_.width) / drawing_.extent.width,

@@ -24,7 +24,7 @@ inline constexpr vk::ClearColorValue kPlainBackground{std::array{0.25F, 0.27F, 0
 // Settings for drawing the eyes of one frame.
 struct EyePassConfig {
   EyePass pass = EyePass::Both;
-  std::size_t pass_count = 1;  // 2 single passes, or 1 if both eyes see the same
+  std::size_t pass_count = 1;  // 2 with single passes; 1 if both eyes see the same
   vk::SampleCountFlagBits samples = vk::SampleCountFlagBits::e1;
   vk::Extent2D extent{};  // size of the drawn room: the eye image's, or less
 
@@ -56,7 +56,7 @@ class EyeTargets {
   void begin(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
   void end(const vk::raii::CommandBuffer& command, std::size_t pass, const std::optional<PixelBox>& box) const;
 
-  // The same for the eye images' own pixels, where the room is enlarged into them. Nothing of the box is kept. Its
+  // Same for the eye images' own pixels, into which the room is enlarged. Keeps nothing of the box. Its
   // depth is that of the pass, which the enlargement fills.
   void begin_enlarged(const vk::raii::CommandBuffer& command, std::size_t pass,
                       const std::optional<PixelBox>& box) const;
@@ -105,7 +105,7 @@ class EyeTargets {
  private:
   struct Target {
     DeviceImage image;
-    vk::raii::ImageView both{nullptr}, linear{nullptr};  // `linear` only for colour
+    vk::raii::ImageView both{nullptr}, linear{nullptr};  // views of both layers; `linear` only for colour
     std::vector<vk::raii::ImageView> single;             // one per layer
   };
   struct Multisampled {
@@ -140,9 +140,9 @@ class EyeTargets {
   Target depth_;
   Target second_color_;  // resolve target of the second single pass
   Target second_depth_;
-  Target reduced_color_;                      // room with fewer pixels; its depth is in depth_
-  Target enlarged_depth_;                     // depth of the room in the eye images' pixels
-  std::array<Multisampled, 3> multisampled_;  // with two layers, then with one for each single pass
+  Target reduced_color_;                      // reduced room; its depth is in depth_
+  Target enlarged_depth_;                     // depth of the enlarged room
+  std::array<Multisampled, 3> multisampled_;  // one with two layers, then one for each single pass
   EyePassConfig drawing_;
 };
 

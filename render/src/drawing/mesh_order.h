@@ -10,7 +10,7 @@ namespace afm::render {
 
 // New order of a primitive's vertices, and the indices into that order.
 struct MeshOrder {
-  std::vector<std::uint32_t> vertices;  // vertices of the primitive that are used by a triangle
+  std::vector<std::uint32_t> vertices;  // vertices that are used by a triangle
   std::vector<std::uint32_t> indices;
 };
 

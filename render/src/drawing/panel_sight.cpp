@@ -17,9 +17,9 @@
 namespace afm::render {
 namespace {
 
-constexpr double kBehindM = 1e-3;  // space in front of a panel taken by its plate, within the precision of its place
+constexpr double kBehindM = 1e-3;  // thickness of a panel's plate, within the precision of its place
 constexpr double kRightAngle = 1e-6;
-constexpr double kMostHidden = 0.1;  // about a corner: objects next to a panel, for a viewer off centre
+constexpr double kMostHidden = 0.1;  // about the size of a corner: objects beside a panel, for a viewer off centre
 
 using Polygon = std::vector<glm::dvec2>;
 
@@ -100,7 +100,7 @@ bool PanelSight::faces(const PanelPlacement& panel) const {
 }
 
 bool PanelSight::may_be_hidden(const PanelPlacement& panel) const {
-  if (frame_.fog.end_m > frame_.fog.begin_m) return false;  // panels are then drawn first
+  if (frame_.fog.end_m > frame_.fog.begin_m) return false;  // panels drawn before everything else
   return std::any_of(frame_.eyes.begin(), frame_.eyes.end(), [&](const scene::EyeView& eye) {
     double share = 0.0;
     for (const auto* drawn : {&draws_.opaque, &draws_.blended}) {
@@ -124,7 +124,7 @@ double PanelSight::hidden_share(const Draw& draw, const scene::EyeView& eye, con
     const glm::dvec3 place(frame_.room_from_node[draw.node] * glm::dvec4(box.center + side * box.half_size, 1.0));
     const glm::dvec3 towards = place - eye.eye_position_m;
     const double speed = glm::dot(front, towards);
-    if (!(speed < 0.0)) return 1.0;  // beside or behind the eye
+    if (!(speed < 0.0)) return 1.0;  // direction beside or behind the eye
     const glm::dvec3 hit =
         eye.eye_position_m + towards * (glm::dot(front, panel.lower_left_m - eye.eye_position_m) / speed);
     outline.emplace_back(glm::dot(across, hit - panel.lower_left_m), glm::dot(upwards, hit - panel.lower_left_m));

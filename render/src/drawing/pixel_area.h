@@ -19,7 +19,7 @@ struct PixelBox {
 
   bool empty() const { return high.x <= low.x || high.y <= low.y; }
   std::int64_t pixels() const;
-  PixelBox within(const PixelBox& other) const;  // intersection
+  PixelBox within(const PixelBox& other) const;  // intersection of both boxes
   PixelBox with(const PixelBox& other) const;    // bounding box of both; an empty box adds nothing
   vk::Rect2D rect() const;                       // requires non-negative `low`
 
@@ -31,7 +31,7 @@ struct PixelBox {
 class PixelArea {
  public:
   static constexpr std::size_t kMostBoxes = 12;
-  static constexpr std::int64_t kPixelsOfBox = 8192;  // cost of a separate rectangle, as work on this many pixels
+  static constexpr std::int64_t kPixelsOfBox = 8192;  // cost of one more rectangle, in pixels of work
 
   PixelArea() = default;
 
@@ -39,15 +39,15 @@ class PixelArea {
   explicit PixelArea(std::span<const PixelBox> boxes);
 
   void add_everything();
-  PixelArea within(const PixelBox& box) const;  // everything stays everything
+  PixelArea within(const PixelBox& box) const;  // intersection; everything stays everything
 
   bool everything() const { return everything_; }
   bool empty() const { return !everything_ && count_ == 0; }
 
   // Empty if the area is everything.
   std::span<const PixelBox> boxes() const { return {boxes_.data(), count_}; }
-  PixelBox around() const;                     // bounding box of all
-  double share_of(vk::Extent2D extent) const;  // at most 1
+  PixelBox around() const;                     // bounding box of all boxes
+  double share_of(vk::Extent2D extent) const;  // fraction of a picture of that size, at most 1
 
  private:
   std::array<PixelBox, kMostBoxes> boxes_;

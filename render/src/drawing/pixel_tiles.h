@@ -24,7 +24,7 @@ class PixelTiles {
 
  private:
   struct Part {
-    glm::ivec2 low{0}, high{0};  // in tiles; empty if it has no width
+    glm::ivec2 low{0}, high{0};  // range in tiles; empty if it has no width
   };
   struct Cut {
     int saved_px = 0;
@@ -37,7 +37,7 @@ class PixelTiles {
   static constexpr int kMost = 64;
   vk::Extent2D extent_;
   int side_px_;
-  std::array<std::uint64_t, kMost> rows_{};  // bit x of row y
+  std::array<std::uint64_t, kMost> rows_{};  // bit x of element y: tile x, y
   bool everything_ = false;
 };
 

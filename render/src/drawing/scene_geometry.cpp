@@ -131,7 +131,7 @@ void pack_primitive(const scene::Scene& scene, const scene::Primitive& primitive
 Packed pack(const scene::Scene& scene) {
   Packed packed;
   packed.draws_of_mesh.resize(scene.meshes.size());
-  std::set<std::size_t> reshaped;  // meshes
+  std::set<std::size_t> reshaped;  // indices of meshes
   for (const scene::Node& node : scene.nodes) {
     if (node.reshaped && node.mesh) reshaped.insert(*node.mesh);
   }
@@ -161,7 +161,7 @@ std::uint32_t vertex_count_of(const scene::Scene& scene, const scene::Node& node
 }
 
 void reshape(Draw& draw, std::uint32_t first_vertex) {
-  AFM_CHECK(!draw.variant);  // drawn by the plain pipelines
+  AFM_CHECK(!draw.variant);  // shape drawn by the plain pipelines
   draw.reshaped = true;
   draw.casts_shadow = false;
   draw.longest_edge = 2.0F * glm::length(draw.half_size);
@@ -233,7 +233,7 @@ const std::array<vk::VertexInputBindingDescription, 2>& SceneGeometry::copy_bind
 }
 
 const std::array<vk::VertexInputAttributeDescription, 6>& SceneGeometry::copy_attributes() {
-  static_assert(offsetof(MeshCopy, scale) == 12 && sizeof(MeshCopy) == 48);  // place and scale are one vector
+  static_assert(offsetof(MeshCopy, scale) == 12 && sizeof(MeshCopy) == 48);  // place and scale form one vector
   const auto of_copy = [](std::uint32_t location, std::uint32_t offset) {
     return vk::VertexInputAttributeDescription{
         .location = location, .binding = kCopyBinding, .format = vk::Format::eR32G32B32A32Sfloat, .offset = offset};

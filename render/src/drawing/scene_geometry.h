@@ -29,13 +29,13 @@ struct Draw {
   glm::vec3 center{0.0F};  // centre of the primitive's box, in the node's frame
   glm::vec3 half_size{0.0F};
   float reach = 0.0F;             // largest distance of a vertex from the mesh's origin
-  std::uint32_t most_copies = 0;  // 0: the mesh itself is drawn
-  std::uint32_t first_copy = 0;   // place in the buffer of all copies
-  bool reshaped = false;      // its vertices are the frame's; first_vertex is their place in the buffer of all shapes
-  float usual_edge = 0.0F;    // in the node's frame; the longest edge of nine triangles in ten is at most this
-  float longest_edge = 0.0F;  // 0: no triangles
-  float largest_turn = 0.0F;  // radians, between the normals at two corners of a triangle
-  DrawBlock block{};          // includes the material's constants
+  std::uint32_t most_copies = 0;  // 0: no copies, so the mesh itself is drawn
+  std::uint32_t first_copy = 0;   // index in the buffer of all copies
+  bool reshaped = false;      // true: vertices from the frame; first_vertex is their index in the buffer of all shapes
+  float usual_edge = 0.0F;    // upper bound for the longest edges of nine triangles in ten, in the node's frame
+  float longest_edge = 0.0F;  // longest edge of all triangles; 0: no triangles
+  float largest_turn = 0.0F;  // largest angle between the normals at two corners of a triangle, in radians
+  DrawBlock block{};          // constants, including those of the material
 };
 
 // Vertex data read only by a ShaderVariant.
@@ -69,7 +69,7 @@ class SceneGeometry {
 
   static const std::array<vk::VertexInputBindingDescription, 1>& bindings();
   static const std::array<vk::VertexInputAttributeDescription, 3>& attributes();
-  static const std::array<vk::VertexInputBindingDescription, 2>& copy_bindings();  // the second: kCopyBinding
+  static const std::array<vk::VertexInputBindingDescription, 2>& copy_bindings();  // second binding: kCopyBinding
   static const std::array<vk::VertexInputAttributeDescription, 6>& copy_attributes();
   static const std::array<vk::VertexInputBindingDescription, 2>& variant_bindings();
   static const std::array<vk::VertexInputAttributeDescription, 5>& variant_attributes();
@@ -83,7 +83,7 @@ class SceneGeometry {
   std::vector<std::uint32_t> shape_sizes_;  // indexed by node
   std::uint32_t shape_count_ = 0;
   Buffer vertices_;
-  Buffer variant_vertices_;  // first vertex with a look
+  Buffer variant_vertices_;  // LookVertex data, from the first vertex with a look on
   Buffer indices_;
 };
 

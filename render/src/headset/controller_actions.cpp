@@ -18,7 +18,7 @@ constexpr float kPulseStrength = 0.8F;
 
 struct ActionRow {
   const char* name;
-  const char* words;  // shown by some runtimes where the user changes bindings
+  const char* words;  // text shown by some runtimes where the user changes bindings
   XrActionType type;
 };
 constexpr std::array<ActionRow, 7> kControllerActions{{{"aim", "Point", XR_ACTION_TYPE_POSE_INPUT},

@@ -9,8 +9,8 @@
 
 namespace afm::render {
 
-// A headset's controllers as OpenXR actions, one set for both hands. The hand that pressed an input last is the one
-// that points. Turn-On is not among them: it stays on the haptic device that holds the hand.
+// A headset's controllers as OpenXR actions, one set for both hands. The hand that pressed an input last
+// points. Turn-On is not among them: it stays on the haptic device that the hand holds.
 class ControllerActions {
  public:
   // Suggests bindings for every controller in the core specification; the runtime lets its user change them.
@@ -37,7 +37,7 @@ class ControllerActions {
   std::array<XrPath, 2> hands_{};
   std::array<XrAction, kCount> actions_{};
   std::array<XrSpace, 2> aims_{};
-  std::size_t hand_ = 1;  // right, the more common one
+  std::size_t hand_ = 1;  // index of the hand that points; initially the right one, the more common
 };
 
 }  // namespace afm::render

@@ -15,7 +15,7 @@ namespace afm::render {
 struct HeadsetFormat {
   vk::Format format;
   const char* name;
-  bool other_order;  // red and blue swapped against the eyes' images
+  bool other_order;  // true: red and blue swapped against the eyes' images
 };
 
 // The runtime's first format that we can fill; nothing if it offers none.
@@ -93,8 +93,8 @@ class EyeSwapchains {
 
   HeadsetFormat format_;
   Chains color_, depth_;    // chains of both images; `depth_` is empty if the runtime accepts no depth
-  bool has_depth_ = false;  // valid for this frame
-  DeviceImage reordered_;   // in the runtime's byte order, if that differs
+  bool has_depth_ = false;  // true: depth valid for this frame
+  DeviceImage reordered_;   // image in the runtime's byte order, if that differs
 };
 
 }  // namespace afm::render

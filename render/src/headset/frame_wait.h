@@ -28,7 +28,7 @@ class FrameWait {
     XrResult result = XR_SUCCESS;
     XrFrameState frame{};
   };
-  // Result of the wait begun last, if it ends within `patience`.
+  // Result of the last wait, if it ends within `patience`.
   std::optional<Answer> answer_within(std::chrono::milliseconds patience);
 
  private:
@@ -36,12 +36,12 @@ class FrameWait {
 
   PFN_xrWaitFrame call_;
   XrSession session_;
-  bool under_way_ = false;  // used only by the thread that calls begin()
+  bool under_way_ = false;  // only for the thread that calls begin()
   std::mutex changing_;
   std::condition_variable changed_;
   bool asked_ = false, ending_ = false;
   std::optional<Answer> answer_;
-  std::thread thread_;  // last member: it uses all the others
+  std::thread thread_;  // last member, because it uses all the others
 };
 
 }  // namespace afm::render

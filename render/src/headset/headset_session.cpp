@@ -23,7 +23,7 @@ constexpr double kUnusedFarM = 100.0;  // far plane reported for a projection wi
 struct StateRow {
   XrSessionState state;
   SessionEvent event;
-  const char* messages;  // messages of the state; null: none worth printing
+  const char* messages;  // log text of the state; null: none worth printing
 };
 constexpr std::array<StateRow, 8> kStates{
     {{XR_SESSION_STATE_IDLE, SessionEvent::BecameIdle, "headset: not worn"},

@@ -78,9 +78,9 @@ class HeadsetSession {
   std::optional<FrameWait> wait_;  // always set after construction
   std::int64_t wait_began_ns_ = 0;
   std::optional<XrFrameState> frame_;  // frame that has begun and must be ended
-  std::array<XrView, 2> views_{};      // as located last
+  std::array<XrView, 2> views_{};      // eyes as last located
   bool located_ = false;
-  bool ending_ = false;  // the runtime wants the session to end after its last frame
+  bool ending_ = false;  // true: session to end after its last frame, at the runtime's request
   bool said_floor_ = false, said_frozen_ = false;
   HeadsetController controller_;
 };

@@ -67,7 +67,7 @@ bool is_loss(const OpenXrFailure& failure);
 // Throws OpenXrFailure for an error.
 void check_openxr(XrResult result, const char* call);
 
-// "XR_ERROR_RUNTIME_UNAVAILABLE"
+// Name of a result, such as "XR_ERROR_RUNTIME_UNAVAILABLE".
 std::string name_of(XrResult result);
 
 // OpenXR structure with only its type set.

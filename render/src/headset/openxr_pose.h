@@ -24,7 +24,7 @@ inline scene::HeadPose to_pose(const XrPosef& pose) {
                                        static_cast<double>(q.z))};
 }
 
-// False for numbers that no runtime should send.
+// False for a pose that no runtime should send.
 inline bool is_pose(const scene::HeadPose& pose) {
   const glm::dvec3& p = pose.position_m;
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&

@@ -36,7 +36,7 @@ class PanelQuads {
   struct Shown {
     std::optional<PictureChain> chain;
     vk::Extent2D extent;
-    std::uint64_t painting = 0;  // painting shown by the runtime; 0: none
+    std::uint64_t painting = 0;  // number of the painting shown by the runtime; 0: none
   };
   void prepare(const ApartPanel& panel, Shown& shown);
   void retire(Shown& shown);
@@ -48,7 +48,7 @@ class PanelQuads {
   std::uint64_t frame_ = 0;
   std::vector<ApartPanel> panels_;                              // panels of the current frame
   std::vector<Shown> shown_;                                    // indexed by ApartPanel::place
-  std::vector<std::pair<XrSwapchain, std::uint64_t>> retired_;  // each with the frame after which it is unused
+  std::vector<std::pair<XrSwapchain, std::uint64_t>> retired_;  // chains, each with the frame after which it is unused
   std::vector<XrCompositionLayerQuad> layers_;
 };
 

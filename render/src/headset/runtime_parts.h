@@ -26,13 +26,13 @@ struct HeadsetRuntimeParts : DeviceSource {
   vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance) override;
   vk::raii::Device create_device(const vk::raii::PhysicalDevice& physical, const vk::DeviceCreateInfo& info) override;
 
-  std::string manifest;  // the runtime's manifest file, for messages
+  std::string manifest;  // path of the runtime's manifest file, for messages
   OpenXrInstance calls;
   XrSystemId system = XR_NULL_SYSTEM_ID;
   std::vector<const char*> extensions;  // supported optional extensions
   std::string runtime_name, headset_name;
   glm::uvec2 eye_px{0};
-  std::uint32_t most_layers = 0;  // limit per frame
+  std::uint32_t most_layers = 0;  // limit on layers per frame
   PFN_vkGetInstanceProcAddr vulkan = nullptr;
 
  private:

@@ -5,9 +5,9 @@ namespace afm::render {
 
 // Life cycle of a session with a headset's runtime, as in the OpenXR specification, without any OpenXR call.
 enum class SessionPhase {
-  Idle,     // not begun: the headset is not worn, or the runtime is not ready
+  Idle,     // not begun: headset not worn, or runtime not ready
   Running,  // waiting for, beginning and ending frames
-  Over      // destroyed with its instance; another headset is looked for
+  Over      // to be destroyed with its instance; another headset is looked for
 };
 
 enum class SessionEvent {
@@ -33,8 +33,8 @@ class SessionStates {
   SessionDuty take(SessionEvent event);
 
   SessionPhase phase() const { return phase_; }
-  bool visible() const { return visible_; }  // the wearer sees our pictures
-  bool focused() const { return focused_; }  // the wearer's input goes to us
+  bool visible() const { return visible_; }  // true: our pictures are visible to the wearer
+  bool focused() const { return focused_; }  // true: our program receives the wearer's input
 
  private:
   SessionPhase phase_ = SessionPhase::Idle;

@@ -18,7 +18,7 @@ namespace {
 
 // The signature and the header, which is the first chunk (PNG, second edition, 5.2 and 11.2.2). Texts may follow it.
 constexpr std::ptrdiff_t kBeginBytes = 8 + 25;
-constexpr std::size_t kLongestKey = 79;  // PNG, second edition, 11.3.4.2
+constexpr std::size_t kLongestKey = 79;  // limit of PNG, second edition, 11.3.4.2
 
 void put_u32(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(static_cast<std::uint8_t>(value >> shift));

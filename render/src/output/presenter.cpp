@@ -18,7 +18,7 @@
 namespace afm::render {
 namespace {
 
-constexpr int kMostSurfacesLost = 20;  // in a row
+constexpr int kMostSurfacesLost = 20;  // limit on successive losses
 
 }  // namespace
 
@@ -58,7 +58,7 @@ struct Presenter::Parts {
   struct Pane {
     std::unique_ptr<WindowSurface> surface;
     WindowPicture picture;
-    bool taken = false;  // has an image to draw into
+    bool taken = false;  // true: image available to draw into
     bool drawn = false;
   };
 
@@ -75,7 +75,7 @@ struct Presenter::Parts {
   vk::raii::Fence finished;
   std::optional<TimestampQueries> stopwatch;  // marks 0 and 1: before and after composing
   std::vector<Pane> panes;
-  int surfaces_lost = 0;  // since a picture was last shown
+  int surfaces_lost = 0;  // number of losses since a picture was last shown
 };
 
 core::Result<void> Presenter::Parts::add(Window& window, Swap swap) {
@@ -83,7 +83,7 @@ core::Result<void> Presenter::Parts::add(Window& window, Swap swap) {
   return panes.back().surface->choose_format();
 }
 
-// Runs `work`, which can find a surface outdated or lost; false if it has.
+// Runs `work`, which may find a surface outdated or lost; false if it does.
 template <class Work>
 bool Presenter::Parts::follow_surfaces(Work&& work) {
   try {

@@ -19,7 +19,7 @@ constexpr const char* kService = "org.freedesktop.ScreenSaver";
 constexpr const char* kObject = "/org/freedesktop/ScreenSaver";
 constexpr std::uint8_t kSaverMajor = 1, kSaverMinor = 1;  // first version with a suspension
 
-// The suspension ends with the connection.
+// Suspends the screen saver; the suspension ends with the connection.
 SaverInhibition::Way suspend_saver(xcb_connection_t* x) {
   if (xcb_connection_has_error(x) != 0) return {.said = "no X server"};
   const xcb_query_extension_reply_t* const extension = xcb_get_extension_data(x, &xcb_screensaver_id);

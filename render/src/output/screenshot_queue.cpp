@@ -70,7 +70,7 @@ void ScreenshotQueue::Parts::mark(const QueuedPicture& place, QueueMark mark) co
   place.clock->mark(place.commands, static_cast<std::uint32_t>(mark));
 }
 
-// Never waits.
+// True if the picture has been copied to the host. Never waits.
 bool ScreenshotQueue::Parts::is_copied(const QueuedPicture& place) const {
   return place.copied.getStatus() == vk::Result::eSuccess;
 }

@@ -80,7 +80,7 @@ Swapchain::Swapchain(const Device& device, vk::SurfaceKHR surface, vk::SurfaceFo
                                        .preTransform = capabilities.currentTransform,
                                        .compositeAlpha = choose_alpha(capabilities),
                                        .presentMode = vk::PresentModeKHR::eFifo,
-                                       .clipped = VK_FALSE,  // keeps the parts hidden by other windows
+                                       .clipped = VK_FALSE,  // parts hidden by other windows are kept
                                        .oldSwapchain = old == nullptr ? vk::SwapchainKHR() : *old->swapchain_});
   for (const VkImage image : swapchain_.getImages()) {
     images_.emplace_back(image);

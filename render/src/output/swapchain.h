@@ -62,7 +62,7 @@ class Swapchain {
   std::vector<vk::Image> images_;  // owned by the swapchain
   std::vector<std::optional<ComposedPicture>> shown_;
   std::vector<vk::raii::ImageView> views_;
-  std::vector<vk::ImageView> layers_;  // all layers of the first image, then of the next
+  std::vector<vk::ImageView> layers_;  // views of all layers of the first image, then of the next
   std::vector<vk::raii::Semaphore> drawn_;
 };
 

@@ -34,7 +34,7 @@ core::Result<std::unique_ptr<WindowHandle>> WindowHandle::open(const WindowOptio
   }
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // a wall stays full screen when its operator uses another screen
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // full screen kept even while the operator uses another screen
   glfwWindowHint(GLFW_DECORATED, options.rect ? GLFW_FALSE : GLFW_TRUE);
   glfwWindowHint(GLFW_VISIBLE,
                  options.rect || options.hidden ? GLFW_FALSE : GLFW_TRUE);  // hidden until it is in position
@@ -132,7 +132,7 @@ double WindowHandle::refresh_hz() const {
   return mode == nullptr || mode->refreshRate <= 0 ? kRefreshHz : mode->refreshRate;
 }
 
-// Looked up, because GLFW's Wayland build lacks the function.
+// Number of the window on its X server. Looked up at run time, because GLFW's Wayland build lacks the function.
 std::optional<std::uint32_t> WindowHandle::x_window() const {
   const auto get = reinterpret_cast<unsigned long (*)(GLFWwindow*)>(::dlsym(RTLD_DEFAULT, "glfwGetX11Window"));
   const unsigned long window = get == nullptr ? 0 : get(window_);
@@ -149,7 +149,7 @@ void WindowHandle::add(WindowEvent event) {
   pressed_.reset();
 }
 
-// A key goes up as the key that went down, since its sign is only known then.
+// Handles a key event. A key goes up as the key that went down, since its sign is only known then.
 void WindowHandle::on_key(GLFWwindow* window, int code, int scancode, int action, int) {
   WindowHandle& self = of(window);
   self.pressed_.reset();
@@ -166,7 +166,7 @@ void WindowHandle::on_key(GLFWwindow* window, int code, int scancode, int action
   self.add({.kind = WindowEvent::Kind::KeyUp, .key = held ? held.mapped() : key_of(code, 0, label_of_key)});
 }
 
-// GLFW reports the sign that a key typed right after the key.
+// Handles the sign that a key typed, which GLFW reports right after the key.
 void WindowHandle::on_typed(GLFWwindow* window, unsigned sign) {
   WindowHandle& self = of(window);
   if (!self.pressed_) {

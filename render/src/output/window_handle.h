@@ -56,12 +56,12 @@ class WindowHandle {
 
   WindowSystem system_;
   GLFWwindow* window_ = nullptr;
-  std::optional<scene::PixelRect> rect_;                        // position, restored when a monitor is back
-  unsigned monitor_changes_ = WindowSystem::monitor_changes();  // as last seen by follow_rect()
-  std::optional<scene::PixelRect> refused_place_;  // place that a window manager insists on, until the next poll
-  int refills_ = 0;                                // attempts to place the window, in a row
-  double last_refill_s_ = 0, next_look_s_ = 0;     // by GLFW's clock
-  std::string full_on_;                            // monitor filled, or filled again when it is back; empty: a window
+  std::optional<scene::PixelRect> rect_;                        // placed rectangle, restored when a monitor is back
+  unsigned monitor_changes_ = WindowSystem::monitor_changes();  // count last seen by follow_rect()
+  std::optional<scene::PixelRect> refused_place_;  // place that the window manager insists on, until the next poll
+  int refills_ = 0;                                // number of successive attempts to place the window
+  double last_refill_s_ = 0, next_look_s_ = 0;     // times on GLFW's clock
+  std::string full_on_;                            // filled monitor, filled again when it is back; empty: a window
   glm::ivec2 full_corner_{0};                      // corner of the filled monitor on the desktop
   glm::ivec2 full_size_{0};                        // size of that monitor's mode when it was filled
   bool monitor_lost_ = false;
@@ -69,9 +69,9 @@ class WindowHandle {
   struct Pressed {
     int code, scancode;
   };
-  std::optional<Pressed> pressed_;  // newest event, if it is a key whose sign may follow
+  std::optional<Pressed> pressed_;  // newest event, if it is a key whose typed sign may follow
   std::map<int, Key> held_;         // keys that are down, by scancode
-  glm::dvec2 cursor_{0.0};          // after the newest event, in desktop units: GLFW only knows the current position
+  glm::dvec2 cursor_{0.0};          // place after the newest event, in desktop units: GLFW only knows the current one
   int windowed_x_ = 0, windowed_y_ = 0, windowed_width_ = 0, windowed_height_ = 0;  // restored after full screen
 };
 

@@ -13,7 +13,7 @@ namespace afm::render {
 
 namespace {
 
-// Run of keys within which GLFW's codes and Key count up together.
+// Run of keys within which GLFW's codes and Key increase together.
 struct KeyRun {
   int first_code, last_code;
   Key first, last;
@@ -21,7 +21,7 @@ struct KeyRun {
 
 constexpr int index(Key key) { return static_cast<int>(key); }
 
-// Places on a US keyboard: the runs of the main part in the order of Key, then the numpad.
+// Keys by their places on a US keyboard: the runs of the main part in the order of Key, then the numpad.
 constexpr std::array kRuns{
     KeyRun{GLFW_KEY_SPACE, GLFW_KEY_SPACE, Key::Space, Key::Space},
     KeyRun{GLFW_KEY_MINUS, GLFW_KEY_MINUS, Key::Minus, Key::Minus},
@@ -54,7 +54,7 @@ Key at_place(int code) {
   return static_cast<Key>(index(run->first) + code - run->first_code);
 }
 
-// Codes of the keys that print a sign which depends on the layout.
+// True for the codes of keys whose printed sign depends on the layout.
 constexpr bool is_printing(int code) { return code >= GLFW_KEY_APOSTROPHE && code <= GLFW_KEY_WORLD_2; }
 
 // Key named by a sign.
@@ -69,7 +69,7 @@ Key named(char32_t sign) {
   return sign == U'-' ? Key::Minus : Key::Other;
 }
 
-// The same for a label: a key labelled = has + as its second sign.
+// Same for a label: a key labelled = has + as its second sign.
 Key labelled(std::string_view label) {
   if (label.size() != 1) return Key::Other;
   return label == "=" ? Key::Plus : named(static_cast<unsigned char>(label.front()));

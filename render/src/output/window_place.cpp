@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The place of a window on its desktop, and how it is kept.
+// Position of a window on its desktop, and the means of keeping it there.
 #include <algorithm>
 #include <span>
 #include <utility>
@@ -10,11 +10,11 @@
 namespace afm::render {
 namespace {
 
-constexpr double kLeftOver = 0.75;      // share of each side of another monitor, when its own has gone
+constexpr double kLeftOver = 0.75;      // fraction of each side of another monitor, used when a window's own has gone
 constexpr double kRefillS = 0.1;        // between two attempts to place a window: a manager answers within that
-constexpr int kMostRefills = 20;        // in a row; then the manager has refused
-constexpr double kKeptS = 2.0;          // in place that long: a later move is a new one
-constexpr double kLookForModeS = 0.25;  // between two looks at a monitor's mode, which ask the X server
+constexpr int kMostRefills = 20;        // limit on successive attempts; then the manager has refused
+constexpr double kKeptS = 2.0;          // time in place after which a move is a new one
+constexpr double kLookForModeS = 0.25;  // interval between two queries of a monitor's mode, which ask the X server
 
 glm::ivec2 corner_of(GLFWmonitor* monitor) {
   glm::ivec2 corner(0);
@@ -22,7 +22,7 @@ glm::ivec2 corner_of(GLFWmonitor* monitor) {
   return corner;
 }
 
-// Monitor of this name, of several the one at that corner; null if there is none.
+// Monitor of this name; of several, the one at that corner; null if there is none.
 GLFWmonitor* monitor_named(const std::string& name, const std::optional<glm::ivec2>& corner) {
   int count = 0;
   GLFWmonitor** const monitors = glfwGetMonitors(&count);
@@ -79,7 +79,7 @@ WindowInput::MonitorChange WindowHandle::follow_monitor() {
   return WindowInput::MonitorChange::Back;
 }
 
-// Without a window manager nobody else fits a full window to a monitor that changes its mode.
+// Fits a full window to a monitor that has changed its mode, which nobody else does without a window manager.
 void WindowHandle::follow_mode() {
   const double now_s = glfwGetTime();
   if (now_s < next_look_s_) return;
@@ -134,7 +134,7 @@ WindowInput::MonitorChange WindowHandle::follow_rect() {
   return WindowInput::MonitorChange::Back;
 }
 
-// Moves the window onto a remaining monitor, wherever it lay when its own monitor went.
+// Moves the window onto a remaining monitor, wherever it was when its own monitor went.
 void WindowHandle::become_small() {
   GLFWmonitor* const left = glfwGetPrimaryMonitor();
   const GLFWvidmode* const mode = left == nullptr ? nullptr : glfwGetVideoMode(left);

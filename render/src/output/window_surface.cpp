@@ -10,7 +10,7 @@
 namespace afm::render {
 namespace {
 
-constexpr int kMostTurns = 40;  // longest wait for a display that keeps all its images
+constexpr int kMostTurns = 40;  // limit on the wait for a display that keeps all its images
 
 constexpr ImageUse kAcquired{kFilling, vk::AccessFlagBits2::eNone, vk::ImageLayout::eUndefined};
 constexpr ImageUse kPresented{vk::PipelineStageFlagBits2::eNone, vk::AccessFlagBits2::eNone,

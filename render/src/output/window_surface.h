@@ -49,7 +49,7 @@ class WindowSurface {
   vk::SwapchainKHR swapchain() const { return ***swapchain_; }
   std::uint32_t index() const { return *index_; }
 
-  // Puts the picture that has been drawn into a window that its driver leaves black; call before presented().
+  // Puts the drawn picture into a window that its driver leaves black; call before presented().
   void put() const;
 
   // Marks the acquired image as presented. An outdated surface gets new images next time.
@@ -71,12 +71,12 @@ class WindowSurface {
   std::optional<ComposePipeline> pipeline_;
   vk::raii::Semaphore acquired_;
   std::optional<Swapchain> swapchain_;
-  std::unique_ptr<XPicture> by_x_;      // picture shown by X; null: the driver shows pictures in this window
-  HostCopy host_;                       // the drawn image, for by_x_
+  std::unique_ptr<XPicture> by_x_;      // picture shown through X; null: shown by the driver
+  HostCopy host_;                       // copy of the drawn image for by_x_
   std::optional<std::uint32_t> index_;  // index of the acquired image
   bool outdated_ = false;
   bool lost_ = false;
-  bool starved_ = false;  // no image last time, so the next wait is short
+  bool starved_ = false;  // true: no image last time, so the next wait is short
 };
 
 }  // namespace afm::render

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint8_t kDepth = 30;
 constexpr std::size_t kPixelBytes = 4, kRequestBytes = 64;  // a pixel, and more than the head of a request
 
-// 0 if the window has gone.
+// Depth of a window in bits; 0 if the window has gone.
 std::uint8_t depth_of(xcb_connection_t* connection, std::uint32_t window) {
   xcb_generic_error_t* error = nullptr;
   xcb_get_geometry_reply_t* const geometry =

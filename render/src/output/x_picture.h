@@ -16,11 +16,11 @@ namespace afm::render {
 // one of 24 bits, which such a window refuses. One thread.
 class XPicture {
  public:
-  // Null if the window has another depth, or its server cannot be reached.
+  // Null if the window has another depth, or if its server is unreachable.
   static std::unique_ptr<XPicture> of(std::uint32_t window);
 
-  // `pixels`: rows from the top, one word each with blue in its lowest ten bits, as the window's visual has them. Waits
-  // until the server has them. A window that has gone is no error.
+  // `pixels`: rows from the top, one word each with blue in its lowest ten bits, as in the window's visual. Waits
+  // until the server has received them. Ignores a window that has gone.
   void put(vk::Extent2D extent, std::span<const std::byte> pixels) const;
 
  private:

@@ -27,7 +27,7 @@ struct Free {
 template <class Reply>
 using Answer = std::unique_ptr<Reply, Free>;
 
-// Answer to a request; null after an error, as for a window that has gone.
+// Answer to a request; null after an error, such as a window that has gone.
 template <class Reply, class Cookie>
 Answer<Reply> answer(xcb_connection_t* connection, Reply* (*reply)(xcb_connection_t*, Cookie, xcb_generic_error_t**),
                      Cookie cookie) {
@@ -72,7 +72,7 @@ bool XSight::find_screen(int number) {
   return root_ != 0;
 }
 
-// An extension's requests come from this connection only where the server has it: it would close the connection.
+// Finds the extensions. An extension's requests must only be sent to a server that has it: others close the connection.
 void XSight::find_extensions() {
   xcb_connection_t* const connection = connection_.get();
   const auto has = [connection](xcb_extension_t& extension) {
@@ -127,7 +127,7 @@ bool XSight::blanked() const {
   return saver && saver->state == kSaverOn;
 }
 
-// A property of 32-bit values; empty without it.
+// Values of a 32-bit property; empty if it is missing.
 std::vector<std::uint32_t> XSight::values(std::uint32_t window, std::uint32_t property) const {
   const auto found = answer(connection_.get(), xcb_get_property_reply,
                             xcb_get_property(connection_.get(), std::uint8_t{0}, window, property,

@@ -17,7 +17,7 @@ class XSight {
   // Null if there is no such server.
   static std::unique_ptr<XSight> connect(const std::vector<std::uint32_t>& windows);
 
-  // Sight of the window that is seen best, after several round trips. Seen if the connection is lost, which the windows
+  // Sight of the best visible window, after several round trips. Seen if the connection is lost, which the windows
   // notice themselves.
   Sight look();
 
@@ -27,7 +27,7 @@ class XSight {
  private:
   struct Watched {
     std::uint32_t id = 0;
-    bool covered = false;  // by the newest event
+    bool covered = false;  // true: covered, according to the newest event
   };
   struct Atoms {
     std::uint32_t state, hidden, desktop, current_desktop, wm_check, compositor;
@@ -53,7 +53,7 @@ class XSight {
   std::uint32_t root_ = 0;
   Atoms atoms_{};
   bool has_dpms_ = false, has_saver_ = false, has_monitors_ = false;
-  bool had_monitors_ = false;  // at least one, at any time
+  bool had_monitors_ = false;  // true: at least one monitor at any time so far
   std::vector<xcb_rectangle_t> monitors_;
   std::vector<Watched> windows_;
 };

@@ -16,7 +16,7 @@ constexpr Color kCoarse{{0.52F, 0.55F, 0.60F}, 1.0F};
 constexpr Color kWhite{{1.0F, 1.0F, 1.0F}, 1.0F};
 constexpr Color kBlack{{0.0F, 0.0F, 0.0F}, 1.0F};
 
-constexpr float kLeastIpdMm = 45.0F, kMostIpdMm = 80.0F;  // Dodgson 2004: nearly all adults
+constexpr float kLeastIpdMm = 45.0F, kMostIpdMm = 80.0F;  // range for nearly all adults (Dodgson 2004)
 
 constexpr Color kRamp{{0.20F, 0.78F, 0.58F}, 1.0F};
 

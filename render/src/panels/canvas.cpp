@@ -24,7 +24,7 @@ bool in_subscript(char c) {
 }  // namespace
 
 Color shown(Color color, PanelContrast contrast) {
-  constexpr float kStronger = 2.5F;  // enhancement of faint colours in high contrast
+  constexpr float kStronger = 2.5F;  // factor for faint colours in high contrast
   if (contrast == PanelContrast::Normal) return color;
   const bool plate = color.srgb == palette::kPlate.srgb;
   if (contrast == PanelContrast::Opaque) return {color.srgb, plate ? 1.0F : color.alpha};
@@ -125,7 +125,7 @@ void Canvas::line(glm::vec2 from, glm::vec2 to, float width_mm, Color color) {
   list_.AddLine(texel(from), texel(to), packed(color), width_mm * fonts_.texels_per_mm);
 }
 
-// Dear ImGui's mitres spike at sharp turns, so this breaks the line there and covers the joint with a disc.
+// Draws a polyline. Breaks it at sharp turns, where Dear ImGui's mitres spike, and covers the joint with a disc.
 void Canvas::polyline(std::span<const glm::vec2> points, float width_mm, Color color) {
   std::vector<ImVec2>& texels = memory_.texels;
   texels.clear();

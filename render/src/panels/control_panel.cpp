@@ -12,7 +12,7 @@ namespace afm::render {
 namespace {
 
 constexpr double kControlMargin = 28.0;
-constexpr double kTop = 124.0;  // below the title and the buttons next to it
+constexpr double kTop = 124.0;  // top of the rows, below the title and the buttons beside it
 constexpr double kTallestRow = 104.0;
 constexpr double kTargetWidth = 88.0;
 constexpr double kButtonWidth = 165.0;
@@ -96,7 +96,7 @@ void paint_row(Canvas& canvas, const ControlPanel& panel, std::size_t row, doubl
 }  // namespace
 
 ControlBox picture_box(const ControlPanel& panel, const glm::dvec2& size_mm) {
-  const glm::dvec2 from(kControlMargin, end_of_notes(panel, size_mm) + kNoteHeight);  // below its title
+  const glm::dvec2 from(kControlMargin, end_of_notes(panel, size_mm) + kNoteHeight);  // place below the picture's title
   const glm::dvec2 room = glm::max(size_mm - from - glm::dvec2(kControlMargin + kBesidePicture, kControlMargin),
                                    glm::dvec2(kSmallestPicture));
   const double width = std::min(room.x, room.y * panel.picture->aspect);
@@ -148,7 +148,7 @@ std::optional<ControlTarget> control_at(const ControlPanel& panel, const glm::dv
 
 namespace {
 
-// A frame around a pixel that is seen however small the pixel is.
+// Draws a frame around a pixel, visible however small the pixel is.
 void frame_pixel(Canvas& canvas, const ControlPanel& panel, std::size_t index, Color color) {
   constexpr double kSmallestFrame = 9.0;
   const ControlBox box = control_box(panel, glm::dvec2(canvas.size_mm()), {ControlTarget::Kind::Pixel, index});
@@ -157,7 +157,7 @@ void frame_pixel(Canvas& canvas, const ControlPanel& panel, std::size_t index, C
   canvas.outline(f(middle - half), f(middle + half), 4.0F, color);
 }
 
-// From the highest value at the top to the lowest.
+// Draws the bar of colours, from the highest value at the top to the lowest.
 void paint_bar(Canvas& canvas, const MapPicture& picture, const glm::dvec2& from, double height) {
   if (picture.bar.size() < 2) return;
   ColorGrid grid{.columns = 2, .rows = static_cast<std::uint32_t>(picture.bar.size()), .colors = {}};

@@ -18,7 +18,7 @@ struct FaceRow {
   FontFace face;
   const char* file;
   const char* family;
-  const char* weight;  // word of fontconfig's patterns
+  const char* weight;  // word in fontconfig's patterns
 };
 
 constexpr std::array<FaceRow, kFontFaces> kFaces{
@@ -44,7 +44,7 @@ std::optional<std::string> read_font(const std::string& path) {
 
 }  // namespace
 
-// The system's fonts, by its library (fontconfig/fontconfig.h), which may be missing.
+// Interface to the system's fonts through its library (fontconfig/fontconfig.h), which may be missing.
 class Fontconfig {
  public:
   Fontconfig() : library_(::dlopen("libfontconfig.so.1", RTLD_NOW | RTLD_LOCAL)) {  // never closed: it keeps caches
@@ -83,7 +83,7 @@ class Fontconfig {
   }
 
  private:
-  static constexpr int kMatchPattern = 0;  // FcMatchPattern
+  static constexpr int kMatchPattern = 0;  // value of FcMatchPattern
 
   template <class Function>
   bool bind(const char* name, Function& function) {
@@ -99,7 +99,7 @@ class Fontconfig {
   }
 
   void* library_ = nullptr;
-  void* config_ = nullptr;  // null: nothing can be asked
+  void* config_ = nullptr;  // null: no answers available
   void* (*load_)() = nullptr;
   void (*destroy_config_)(void*) = nullptr;
   void* (*parse_)(const unsigned char*) = nullptr;

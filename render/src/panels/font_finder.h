@@ -15,8 +15,8 @@ inline constexpr std::size_t kFontFaces = 4;
 
 class Fontconfig;
 
-// Finds font files of TrueType or OpenType: by their names in folders, then by family where fontconfig says. Its
-// library is opened only when it is needed. For one thread.
+// Finds font files in TrueType or OpenType format: by name in folders, then by family through fontconfig. Opens
+// fontconfig's library only when needed. One thread.
 class FontFinder {
  public:
   explicit FontFinder(std::vector<std::string> folders);
@@ -24,9 +24,9 @@ class FontFinder {
   FontFinder& operator=(const FontFinder&) = delete;
   ~FontFinder();
 
-  // The bytes of this font; nothing if it is not installed.
+  // Contents of this font's file; nothing if it is not installed.
   std::optional<std::string> read(FontFace face);
-  // The bytes of any font without serifs, of about the same weight; nothing if fontconfig knows none.
+  // Contents of any font without serifs, of about the same weight; nothing if fontconfig knows none.
   std::optional<std::string> read_similar(FontFace face);
 
  private:

@@ -20,12 +20,12 @@ constexpr float kApproachWidth = 4.5F;
 constexpr float kFadedAlpha = 0.50F;
 constexpr float kCursorRadius = 19.0F;
 
-// The live force: its place, the widest one, and the line on which digits of all sizes stand, as a share of the em
+// The live force: its top, and the baseline of digits of all sizes, as a fraction of the em
 // square.
 constexpr float kFigureTop = -10.0F, kBaseline = 0.80F;
 constexpr std::string_view kWidestNumber = "\u221200.00", kWidestUnit = "nN";
 
-// Calls `visit` for each letter of UTF-8.
+// Calls `visit` for each character of a UTF-8 text.
 template <class Visit>
 void for_each_letter(std::string_view text, const Visit& visit) {
   while (!text.empty()) {
@@ -94,7 +94,7 @@ void paint_number(Canvas& canvas, std::string_view text, float right, float top,
   });
 }
 
-// Draws title, part of the cycle and the force now: side by side, or on a narrow panel below each other. Returns the
+// Draws title, part of the cycle and current force: side by side, or on a narrow panel below each other. Returns the
 // lower end.
 float paint_heading(Canvas& canvas, const ForcePanel& panel) {
   constexpr float kPlain = 146.0F, kApart = 30.0F, kLeastShrunk = 0.75F, kLine = 56.0F, kTail = 16.0F;
@@ -241,7 +241,7 @@ std::span<const glm::vec2> placed(Canvas& canvas, const Plot& plot, const std::v
   return places;
 }
 
-// Height of a branch at the middle of each column; of a stretch that the hand went over several times, the last.
+// Height of a branch at the middle of each column; for a stretch that the hand crossed several times, the last height.
 using Heights = std::array<std::optional<float>, 640>;
 
 void take_heights(std::span<const glm::vec2> points, float left, float column, Heights& heights) {

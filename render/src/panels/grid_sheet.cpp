@@ -8,7 +8,7 @@
 namespace afm::render {
 namespace {
 
-// FNV-1a of 32 bits (Fowler, Noll, Vo).
+// 32-bit FNV-1a (Fowler, Noll, Vo).
 std::uint32_t digest_of(const ColorGrid& grid) {
   std::uint32_t digest = 2166136261U;
   for (const auto& color : grid.colors) {

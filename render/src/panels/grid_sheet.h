@@ -11,8 +11,8 @@
 
 namespace afm::render {
 
-// The colour grids of the panels that a frame paints, side by side in one picture, each with a rim that repeats its
-// outermost cells: filtering blends no grid with another. Keeps its memory.
+// The colour grids of all panels painted in a frame, side by side in one picture, each with a rim that repeats its
+// outermost cells, so that filtering never blends two grids. Keeps its memory.
 class GridSheet {
  public:
   static constexpr std::uint32_t kWidth = 1024;  // texels
@@ -20,12 +20,12 @@ class GridSheet {
 
   struct Place {
     glm::vec2 from{0.0F}, to{0.0F};  // corners of the cells, in texels
-    std::uint32_t digest = 0;        // hash of the colours, the only difference between some paintings
+    std::uint32_t digest = 0;        // hash of the colours, sometimes the only difference between paintings
   };
 
   void clear();
 
-  // Adds a grid of at most kMostGridCells each way; another is a bug of ours.
+  // Adds a grid; one of more than kMostGridCells in a direction is a bug of ours.
   Place add(const ColorGrid& grid);
 
   bool empty() const { return texels_.empty(); }
@@ -33,8 +33,8 @@ class GridSheet {
   std::span<const std::array<std::uint8_t, 4>> texels() const { return texels_; }  // texels row by row
 
  private:
-  glm::uvec2 next_{0};            // corner of the next grid's rim
-  std::uint32_t row_bottom_ = 0;  // end of the row of grids that is being filled
+  glm::uvec2 next_{0};            // corner of the rim of the next grid
+  std::uint32_t row_bottom_ = 0;  // lower end of the row of grids that is being filled
   std::vector<std::array<std::uint8_t, 4>> texels_;
 };
 

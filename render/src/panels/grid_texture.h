@@ -14,7 +14,7 @@ class GridTexture {
   void record_upload(const vk::raii::CommandBuffer& command, const Device& device, const GridSheet& sheet,
                      vk::DescriptorSetLayout layout, vk::Sampler sampler);
 
-  // Set of the sheet that was copied last.
+  // Descriptor set of the sheet that was copied last.
   vk::DescriptorSet set() const { return *texture_.set; }
 
  private:

@@ -11,10 +11,10 @@
 namespace afm::render {
 namespace {
 
-constexpr float kImageTop = 146.0F;  // below the title and subtitle
+constexpr float kImageTop = 146.0F;  // top of the images, below title and subtitle
 constexpr float kBetween = 26.0F;
-constexpr float kImageCaption = 44.0F;  // above a picture
-constexpr float kImageTicks = 60.0F;    // below trace and retrace
+constexpr float kImageCaption = 44.0F;  // height of a caption above a picture
+constexpr float kImageTicks = 60.0F;    // height of the ticks below trace and retrace
 constexpr float kColorBar = 92.0F;      // height of the colour bar with its numbers
 constexpr float kColorBarHeight = 30.0F;
 constexpr float kImageFoot = 26.0F;
@@ -184,7 +184,7 @@ void paint_bar(Canvas& canvas, const ImagePanel& panel, const Layout& layout) {
     const float half = 0.5F * canvas.text_width_mm(TextStyle::Small, number);
     canvas.line({x, to.y}, {x, to.y + kTickLength}, 2.5F, palette::kAxis);
     const float middle = std::clamp(x, from.x + half, to.x - half);
-    if (middle + half > end) continue;  // reserved for the unit
+    if (middle + half > end) continue;  // room reserved for the unit
     canvas.text({middle, to.y + kTickLength}, TextStyle::Small, palette::kMuted, number, Align::Center);
   }
   canvas.text({to.x, to.y + kTickLength}, TextStyle::Small, palette::kMuted, "nm", Align::Right);

@@ -11,7 +11,7 @@ constexpr float kLineShare = 1.3F;     // distance of two rows, in heights of th
 constexpr float kNameGapMm = 40.0F;    // between name and value
 constexpr float kColumnGapMm = 80.0F;  // between two columns
 constexpr std::size_t kMostColumns = 3;
-constexpr float kLeastShare = 0.75F;  // a long row may be smaller than the others, down to this share
+constexpr float kLeastShare = 0.75F;  // smallest size of a long row, relative to the others
 
 struct Columns {
   std::size_t count = 1;
@@ -25,7 +25,7 @@ float row_width_mm(const Canvas& canvas, const DataRow& row) {
          canvas.text_width_mm(TextStyle::Guidance, row.value);
 }
 
-// The columns that allow the largest letters, up to the size of the guidance.
+// Columns with the largest possible letters, up to the size of the guidance.
 Columns columns_of(const Canvas& canvas, const DataPanel& list) {
   float widest = 1.0F;
   for (const DataRow& row : list.rows) widest = std::max(widest, row_width_mm(canvas, row));

@@ -28,9 +28,9 @@ struct MarkerLabel {
   glm::vec2 size{0.0F};
 };
 
-// Adds one box for each label, in order, inside `plot`. Each box lies next to its line where it covers nothing in
-// `taken`, earlier labels included. A label without such a position has an empty box and is not drawn: where letters
-// are large, the line alone says more than two labels one over the other.
+// Adds one box for each label, in order, inside `plot`. Each box lies next to its line without covering anything in
+// `taken`, earlier labels included. A label without such a position has an empty box and is not drawn: with
+// large letters, the line alone says more than two overlapping labels.
 void place_labels(std::span<const MarkerLabel> labels, const LabelBox& plot, std::vector<LabelBox>& taken);
 
 }  // namespace afm::render

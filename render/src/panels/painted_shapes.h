@@ -31,11 +31,11 @@ class PaintedShapes {
  private:
   struct Group {
     ImVec4 clip{};
-    std::size_t end = 0;  // one past its last corner
+    std::size_t end = 0;  // index one past its last corner
   };
   std::span<const ImDrawVert> corners_of(std::size_t group) const;
 
-  std::vector<ImDrawVert> corners_;  // three per triangle
+  std::vector<ImDrawVert> corners_;  // three corners per triangle
   std::vector<Group> groups_;
 };
 

@@ -37,7 +37,7 @@ vk::raii::Pipeline create_canvas_pipeline(const Device& device, const char* name
 
 }  // namespace
 
-// A frame that an exception cut short leaves the atlas locked, and Dear ImGui lets no locked atlas go.
+// Frees the context. After a frame cut short by an exception the atlas is locked, and Dear ImGui frees no locked atlas.
 void PanelBrush::ContextDeleter::operator()(ImGuiContext* context) const {
   ImGui::SetCurrentContext(context);
   ImGui::GetIO().Fonts->Locked = false;

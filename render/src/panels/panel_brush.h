@@ -13,12 +13,12 @@ namespace afm::render {
 // Format of the panels' textures, which hold premultiplied sRGB values.
 inline constexpr vk::Format kPanelFormat = vk::Format::eR8G8B8A8Unorm;
 
-// Everything that painting a panel needs and that no panel has alone. Created with the first panel that is shown: the
-// glyphs take longer than the rest of the start of a program that shows none. One thread.
+// Objects shared by the painting of all panels. Created with the first panel that is shown, because
+// its glyphs take longer than the rest of the start of a program that shows none. One thread.
 class PanelBrush {
  public:
   struct Layouts {
-    vk::DescriptorSetLayout texture;  // as for create_panel_texture()
+    vk::DescriptorSetLayout texture;  // layout for create_panel_texture()
     vk::PipelineLayout canvas;
     vk::Sampler sampler;
   };
@@ -26,10 +26,10 @@ class PanelBrush {
   PanelBrush(const Device& device, PanelFonts fonts, const Layouts& layouts);
 
   const PanelFonts& fonts() const { return fonts_; }
-  // Makes its context the one of Dear ImGui's functions.
+  // Makes its context the current one for Dear ImGui's functions.
   void take_up() const { ImGui::SetCurrentContext(imgui_.get()); }
   const vk::raii::Pipeline& canvas() const { return canvas_; }
-  const vk::raii::Pipeline& grids() const { return grids_; }  // draws the colour grids of a canvas
+  const vk::raii::Pipeline& grids() const { return grids_; }  // pipeline for the colour grids of a canvas
   vk::DescriptorSet glyphs() const { return *atlas_.set; }
 
  private:

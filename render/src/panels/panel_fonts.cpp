@@ -24,7 +24,7 @@ struct StyleRow {
 constexpr float kMostTexelsPerMm = 5.4F;
 constexpr float kCoarser = 0.75F;  // reduction step when the glyphs do not fit into an image
 
-// At least in medium weight: thin strokes are invisible from the back of a room.
+// Styles, at least in medium weight: thin strokes are invisible from the back of a room.
 constexpr std::array<StyleRow, kTextStyles> kStyles{{
     {TextStyle::Small, 30.0F, FontFace::InterMedium, FontFace::DejaVu},
     {TextStyle::Body, 40.0F, FontFace::InterMedium, FontFace::DejaVu},
@@ -44,7 +44,7 @@ constexpr std::array<ImWchar, 19> kGlyphRanges{0x0020, 0x00FF, 0x0391, 0x03C9, 0
 // Plus, comma, hyphen, point, digits and the typographic minus.
 constexpr std::array<ImWchar, 7> kNumberRanges{0x002B, 0x002E, 0x0030, 0x0039, 0x2212, 0x2212, 0};
 
-// Never returns null, since ImGui does not check.
+// Allocates memory or throws, since ImGui does not check for null.
 void* memory_or_throw(std::size_t size, void* /*unused*/) {
   if (void* place = std::malloc(size)) return place;
   throw std::bad_alloc();

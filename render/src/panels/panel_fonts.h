@@ -16,7 +16,7 @@
 namespace afm::render {
 
 // Purpose of a text; determines its size on the wall.
-// Figure has only what a number is made of.
+// Figure has only the characters of numbers.
 enum class TextStyle { Small, Body, Strong, Title, Guidance, Figure };
 inline constexpr std::size_t kTextStyles = 6;
 
@@ -28,10 +28,10 @@ struct PanelFonts {
   std::unique_ptr<ImFontAtlas> atlas;
   std::array<ImFont*, kTextStyles> fonts{};
   float texels_per_mm = 1.0F;  // resolution of the panels
-  float true_mm = 1.0F;        // a millimetre of the room, in the panels' millimetres
+  float true_mm = 1.0F;        // length of a millimetre of the room, in the panels' millimetres
 };
 
-// Bytes of the fonts, in the order of FontFace; nothing in place of a font that another replaces.
+// Contents of the font files, in the order of FontFace; nothing for a font that another replaces.
 using FontFiles = std::array<std::optional<std::string>, kFontFaces>;
 
 // Reads Inter, and DejaVu Sans for missing glyphs or as a replacement: from the program's assets, from Debian's

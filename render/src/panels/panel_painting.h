@@ -6,7 +6,7 @@
 
 namespace afm::render {
 
-inline constexpr float kMargin = 34.0F;  // mm, around texts and plots
+inline constexpr float kMargin = 34.0F;  // width around texts and plots, mm
 
 void paint(Canvas& canvas, const ForcePanel& panel);
 void paint(Canvas& canvas, const ImagePanel& panel);
@@ -27,10 +27,10 @@ void paint(Canvas& canvas, const EyeMark& mark);
 
 // Relation of a panel to the rest of the picture.
 enum class PanelLayer {
-  InScene,     // nearer objects hide it
-  OverAll,     // nothing hides it: whether a force reaches the hand is to be seen, wherever the scene has been moved;
-               // and a list over the whole wall
-  Calibration  // over everything else, and only in the pictures of the eyes
+  InScene,     // hidden by nearer objects
+  OverAll,     // hidden by nothing, since a person must see if a force reaches the hand, wherever the scene
+               // has been moved; and a list over the whole wall
+  Calibration  // over everything else, only in the pictures of the eyes
 };
 template <class Content>
 inline constexpr PanelLayer kLayerOf = PanelLayer::InScene;

@@ -9,7 +9,7 @@
 
 namespace afm::render {
 
-// Rectangle of a panel, whose lower left corner is 0, 0 and whose upper right one is 1, 1.
+// Rectangle of a panel; the panel's lower left corner is 0, 0, its upper right one 1, 1.
 struct PanelPart {
   glm::dvec2 low{0.0}, high{1.0};
 

@@ -19,7 +19,7 @@
 namespace afm::render {
 namespace {
 
-constexpr std::uint32_t kLargestTexture = 8192;  // each way; smaller if the device requires it
+constexpr std::uint32_t kLargestTexture = 8192;  // limit for width and height; smaller if the device requires it
 
 const Label kNoLabel{.text = {}, .highlighted = false, .placement = kNoPlacement};
 
@@ -53,7 +53,7 @@ glm::dvec2 size_m(const PanelPlacement& placement) {
   return {glm::length(placement.right_m), glm::length(placement.up_m)};
 }
 
-// Size in the panels' millimetres.
+// Size of a panel in the panels' millimetres.
 glm::dvec2 size_mm(const PanelPlacement& placement, const PanelFonts& fonts) {
   return size_m(placement) * 1000.0 * static_cast<double>(fonts.true_mm);
 }
@@ -284,7 +284,7 @@ bool Panels::shows_any() const {
 
 void Panels::record_rectangles(const vk::raii::CommandBuffer& command, const EyePassConfig& drawing,
                                vk::DescriptorSet frame_set) {
-  if (!shows_any()) return;  // nor are the pipelines needed yet
+  if (!shows_any()) return;  // no panel, so that no pipeline is needed yet
   command.bindPipeline(vk::PipelineBindPoint::eGraphics, rectangle_pipeline_.get(drawing.pass, drawing.samples));
   command.setCullMode(vk::CullModeFlagBits::eNone);
   const auto show = [&](const Panel& panel) {

@@ -42,7 +42,7 @@ struct ApartPanel {
   PanelPlacement placement;
   vk::Image texture;  // valid until the next frame
   vk::Extent2D extent;
-  std::uint64_t painting = 0;  // as PanelState::painting
+  std::uint64_t painting = 0;  // number as in PanelState::painting
 };
 
 // Panels of a frame. Each is painted into its texture, repainted only when its content or size changes, and shown on
@@ -85,11 +85,11 @@ class Panels {
     PaintedShapes shapes;           // shapes of the last painting
     glm::vec2 canvas_texels{1.0F};  // canvas size; a texture of the largest size shows it reduced
     std::uint64_t painting = 0;     // number of paintings so far
-    PanelPart part;                 // as PanelState::part
+    PanelPart part;                 // part as in PanelState::part
     bool shown = false;
-    bool apart = false;                  // left out of the eyes' pictures
-    bool has_place = false;              // room to show it apart
-    std::optional<scene::Eye> only_eye;  // shown to this eye only
+    bool apart = false;                  // true: left out of the eyes' pictures
+    bool has_place = false;              // true: room available to show it apart
+    std::optional<scene::Eye> only_eye;  // only eye that sees it; none: both
   };
   // Contents that the textures show.
   struct Contents {
@@ -103,7 +103,7 @@ class Panels {
     std::vector<ImDrawIdx> indices;
     std::vector<ImDrawCmd> commands;
   };
-  // The same on the device.
+  // Same data on the device.
   struct Geometry {
     Buffer vertices;
     Buffer indices;
@@ -115,10 +115,10 @@ class Panels {
     std::size_t first_index = 0;
     std::size_t first_command = 0;
     std::size_t command_count = 0;
-    bool whole = true;  // false: only the panel's part
+    bool whole = true;  // true: all of the panel; false: only its part
   };
 
-  PanelBrush& brush();  // created by the first call
+  PanelBrush& brush();  // creates the brush at the first call
   bool shows_any() const;
   template <class Content>
   void update(Panel& panel, const PanelPlacement& placement, const Content& content, Content& painted);
@@ -131,15 +131,15 @@ class Panels {
 
   const Device& device_;
   RendererOptions options_;
-  double largest_texture_;  // each way
-  FontFiles font_files_;    // empty once the glyphs are drawn
+  double largest_texture_;  // largest width and height of a texture
+  FontFiles font_files_;    // contents of the fonts, empty once the glyphs are drawn
   vk::raii::DescriptorSetLayout texture_layout_;
   vk::raii::PipelineLayout canvas_layout_;
   vk::raii::PipelineLayout rectangle_layout_;
   EyePipeline rectangle_pipeline_;
-  EyePipeline over_all_pipeline_;  // draws the banner, which nothing covers
+  EyePipeline over_all_pipeline_;  // pipeline for the banner, which nothing covers
   vk::raii::Sampler sampler_;
-  std::optional<PanelBrush> brush_;  // nothing until a panel is shown
+  std::optional<PanelBrush> brush_;  // empty until a panel is shown
   std::array<Geometry, kFramesInFlight> geometry_;
   std::array<Panel, kSlots> slots_;  // in the order of FramePanels
   std::vector<Panel> labels_;

@@ -29,7 +29,7 @@ std::string tick_text(double value, double step, char decimal_mark) {
 }
 
 void thin_out(std::vector<glm::vec2>& points, float column_mm) {
-  std::size_t written = 0;  // never ahead of the reading position
+  std::size_t written = 0;  // index that is never ahead of the reading position
   std::size_t begin = 0;
   while (begin < points.size()) {
     const float column = std::floor(points[begin].x / column_mm);

@@ -82,7 +82,7 @@ std::string_view take_line(const Canvas& canvas, std::string_view& words, float 
   return line;
 }
 
-// Calls `draw` for each line of the rows, and says whether it begins a row; false if one is too wide.
+// Calls `draw` for each line of the rows, with a flag for the beginning of a row; false if one is too wide.
 template <class Draw>
 bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, const Draw& draw) {
   const float width = canvas.size_mm().x - 2.0F * kMargin;
@@ -98,7 +98,7 @@ bool for_each_line(const Canvas& canvas, const DataPanel& panel, float scale, co
   return fits;
 }
 
-constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // in a data panel
+constexpr float kHeader = 150.0F, kBelowRows = 18.0F;  // heights in a data panel
 constexpr float kMostPitch = 84.0F;
 constexpr float kTextPitch = 62.0F;      // distance of two lines of a text
 constexpr float kParagraphShare = 0.5F;  // gap between two paragraphs, in lines
@@ -106,14 +106,14 @@ constexpr float kParagraphShare = 0.5F;  // gap between two paragraphs, in lines
 // Scale of the header, which is not larger than above a table.
 float header_scale(float scale) { return std::min(1.0F, scale); }
 
-// Lines of a text, with the gaps between its paragraphs, and whether no line is too wide.
+// Number of lines of a text, with the gaps between its paragraphs; true if no line is too wide.
 std::pair<float, bool> lines_of(const Canvas& canvas, const DataPanel& panel, float scale) {
   float lines = kParagraphShare * static_cast<float>(panel.rows.size() - 1);
   const bool fits = for_each_line(canvas, panel, scale, [&](std::string_view, bool) { lines += 1.0F; });
   return {lines, fits};
 }
 
-// Text scale at which a panel of words is full, up to the size of the guidance.
+// Scale at which the text fills its panel, up to the size of the guidance.
 float text_scale(const Canvas& canvas, const DataPanel& panel) {
   constexpr float kSmaller = 0.99F, kLeast = 0.2F;
   float scale = text_height_mm(TextStyle::Guidance) / text_height_mm(TextStyle::Strong);
@@ -144,10 +144,10 @@ void paint_words(Canvas& canvas, std::string_view words, float top, float pitch)
               std::min(by_height, by_width));
 }
 
-constexpr float kLargestRow = 1.4F;  // text scale of a row that has only a name and a value
-constexpr float kLeastName = 0.75F;  // smallest size of its name, as a share of the value's
+constexpr float kLargestRow = 1.4F;  // scale of a row with only a name and a value
+constexpr float kLeastName = 0.75F;  // smallest size of a name, relative to its value
 constexpr float kNameGap = 20.0F;
-constexpr float kLeastSource = 0.275F;  // smallest size of a source, as a share of its style's
+constexpr float kLeastSource = 0.275F;  // smallest size of a source, relative to its style
 
 // Source shown below a row.
 std::string_view shown_source(const DataPanel& panel, const DataRow& row) {
@@ -176,8 +176,8 @@ TableBlocks blocks_of(const DataPanel& panel) {
   return blocks;
 }
 
-// Height of a row in a table of this height: the same for all if the tallest row fits, or else by what the rows
-// contain, so that their letters have one size.
+// Height of a row in a table of this height: the same for all if the tallest row fits, otherwise in proportion to their
+// contents, so that their letters have one size.
 float row_height_mm(const DataPanel& panel, const DataRow& row, float room) {
   const TableBlocks blocks = blocks_of(panel);
   const auto count = static_cast<float>(panel.rows.size());
@@ -230,7 +230,7 @@ void paint_row(Canvas& canvas, const DataRow& row, std::string_view source, floa
 
 constexpr Ink kNoteInk{TextStyle::Body, palette::kMuted, 0.0F};
 
-// The facts on the two lower lines of a banner: separated by a line break or two spaces or more.
+// Facts on the two lower lines of a banner: separated by a line break or by two spaces or more.
 class Notes {
  public:
   Notes(const Canvas& canvas, std::string_view text, float scale)
@@ -329,7 +329,7 @@ void paint(Canvas& canvas, const Banner& banner) {
   // an optional second line of the scale
   const bool two_lines = banner.scale.find('\n') != std::string::npos;
   const float third = two_lines ? text_height_mm(TextStyle::Body) + 8.0F : 0.0F;
-  constexpr float kGap = 16.0F, kLeast = 8.0F;  // between the lines; least distance there and to the edges
+  constexpr float kGap = 16.0F, kLeast = 8.0F;  // gap between the lines; smallest gap there and to the edges
   const float content = text_height_mm(TextStyle::Guidance) + kGap + text_height_mm(TextStyle::Body) + third;
   const float spare = canvas.size_mm().y - content;
   const float top = std::max(kLeast, 0.5F * spare);
@@ -345,10 +345,10 @@ void paint(Canvas& canvas, const Banner& banner) {
   // the lines below shrink to make room for the guidance
   const float left = canvas.size_mm().y - kLeast - second;
   const float lower = std::clamp(left / (text_height_mm(TextStyle::Body) + third), 0.1F, 1.0F);
-  const bool beside_state = state.to.y > second;  // the enlarged state reaches down to these lines
+  const bool beside_state = state.to.y > second;  // true: the enlarged state reaches down to these lines
   const float end_mm = beside_state ? state.from.x - 24.0F : right;
   const float whole = end_mm - kMargin;
-  // a warning comes before the scales, and is whole on the narrowest banner
+  // a warning comes before the scales, and is complete on the narrowest banner
   constexpr float kTriangleMm = 60.0F, kLeastForScales = 0.3F;  // share of the line
   float warned = 0.0F;
   if (!banner.warning.empty()) {
@@ -371,7 +371,7 @@ void paint(Canvas& canvas, const Banner& banner) {
 void paint(Canvas& canvas, const Label& label) {
   canvas.panel_background(label.highlighted ? palette::kOrange : palette::kEdge, label.highlighted ? 5.0F : 2.0F);
   const glm::vec2 size = canvas.size_mm();
-  const float margin = std::clamp(0.03F * size.x, 12.0F, 24.0F);  // beside the text
+  const float margin = std::clamp(0.03F * size.x, 12.0F, 24.0F);  // margin beside the text
   const float by_height = 0.66F * size.y / text_height_mm(TextStyle::Guidance);
   const float by_width =
       (size.x - 2.0F * margin) / std::max(canvas.text_width_mm(TextStyle::Guidance, label.text), 1.0F);

@@ -7,16 +7,16 @@
 namespace afm::render {
 namespace {
 
-constexpr float kHalfSize = 0.6F;    // letters on two lines, as a share of the style's
-constexpr float kHalfPitch = 0.54F;  // distance of the two lines, as a share of the style's height
-constexpr float kRise = 0.06F;       // part of the two lines above the place of one, as a share of the style's height
+constexpr float kHalfSize = 0.6F;    // size of letters on two lines, relative to the style
+constexpr float kHalfPitch = 0.54F;  // distance of the two lines, relative to the style's height
+constexpr float kRise = 0.06F;       // rise of the two lines above the place of one, relative to the style's height
 
-// Reduction of a line of text to `room_mm`.
+// Factor that fits a line of text into `room_mm`.
 float fit_to(const Canvas& canvas, TextStyle style, std::string_view text, float room_mm, float scale) {
   return std::min(1.0F, room_mm / std::max(canvas.text_width_mm(style, text, scale), 1.0F));
 }
 
-// Splits text at the space that leaves the shortest lines; the second is empty if there is no space.
+// Splits text at the space with the shortest resulting lines; the second is empty if there is no space.
 std::array<std::string_view, 2> halves_of(const Canvas& canvas, TextStyle style, std::string_view text) {
   std::array<std::string_view, 2> best{text, {}};
   float least = canvas.text_width_mm(style, text);

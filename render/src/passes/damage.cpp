@@ -16,10 +16,10 @@
 namespace afm::render {
 namespace {
 
-constexpr std::size_t kMostChanged = 64;  // draws; beyond this, redrawing everything costs about as much
+constexpr std::size_t kMostChanged = 64;  // number of draws beyond which redrawing everything costs about as much
 constexpr double kMostOfPicture = 0.75;   // same limit as a share: each rectangle processes the vertices again
 constexpr double kFarDepth =
-    1e3;                   // in depth ranges of the shadow map; edges that leave a slab later are parallel to it
+    1e3;                   // in depth ranges of the shadow map; edges that leave a slab farther away are parallel to it
 constexpr int kParts = 8;  // parts with bounds of their own: a long object at an angle fills little of its box
 
 // Reach of a surface's shadow lookup, in texels of the shadow map: a step of up to two off the surface, interpolation
@@ -58,9 +58,9 @@ void for_each_part(const Draw& draw, const DrawBlock& block, const Take& take) {
 
 }  // namespace
 
-// ---- what differs ----
+// ---- differences ----
 
-// Returns false if there are too many.
+// Finds the changed draws. Returns false if there are too many.
 bool Damage::find_changed(const DrawnFrame& before, const DrawnFrame& now, const SceneGeometry& geometry) {
   changed_.assign(now.blocks_.size(), 0);
   changes_.clear();
@@ -115,7 +115,7 @@ void Damage::add_draw(const DrawnFrame& of, std::uint32_t draw, const SceneGeome
   });
 }
 
-// A copy that has changed, at its old and its new place, with its shadow.
+// Adds a changed copy at its old and its new place, with its shadow.
 void Damage::add_copy(const CopyChange& change, const DrawnFrame& before, const DrawnFrame& now,
                       const SceneGeometry& geometry, PixelTiles& tiles) const {
   const Draw& draw = geometry.draws()[change.draw];
@@ -145,7 +145,7 @@ void Damage::add_reached(const Volume& volume, const DrawnFrame& now, const Scen
   }
 }
 
-// `box` is what a draw shows, or a part of it.
+// Adds the area of `box`, the extent of a draw or of a part of it.
 void Damage::add_reached_box(const Volume& volume, const DrawnFrame& now, std::uint32_t draw, const DrawBox& box,
                              const glm::dvec3& edge, PixelTiles& tiles) {
   const glm::dmat4 box_from_node = volume.box_from_room * now.room_from_node(draw);

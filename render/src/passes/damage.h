@@ -33,10 +33,10 @@ class DrawnFrame {
   // Blocks of the geometry's draws, one each.
   std::span<const DrawBlock> blocks() const { return blocks_; }
 
-  // SceneGeometry::copy_count() copies, those of a node from Draw::first_copy on. Those that are not shown are all 0.
+  // SceneGeometry::copy_count() copies, those of a node from Draw::first_copy on. Hidden ones are all 0.
   std::span<const MeshCopy> copies() const { return copies_; }
 
-  // SceneGeometry::shape_count() vertices, those of a draw from Draw::first_vertex on; those of earlier frames where
+  // SceneGeometry::shape_count() vertices, those of a draw from Draw::first_vertex on; from earlier frames if
   // this one has none.
   std::span<const scene::Vertex> shapes() const { return shapes_; }
 
@@ -49,10 +49,10 @@ class DrawnFrame {
 
  private:
   friend class Damage;
-  // flags of how_
+  // flags in how_
   static constexpr std::uint8_t kDrawn = 1, kCasts = 2, kMirrored = 4, kPerVertex = 8, kLightPerVertex = 16;
 
-  glm::dmat4 room_from_node(std::uint32_t draw) const;  // as the shaders use it
+  glm::dmat4 room_from_node(std::uint32_t draw) const;  // matrix as used by the shaders
   bool same_for_all(const DrawnFrame& other) const;
   bool same(const DrawnFrame& other, std::uint32_t draw) const;
   bool same_shape(const DrawnFrame& other, const SceneGeometry& geometry, std::uint32_t draw) const;
@@ -66,13 +66,13 @@ class DrawnFrame {
 
   bool known_ = false;
   EyePassConfig drawing_;
-  FrameBlock rest_{};  // without the mark at the contact
+  FrameBlock rest_{};  // uniforms without the mark at the contact
   glm::vec4 contact_{0.0F}, contact_ring_{0.0F};
   bool hazy_ = false;
   std::array<glm::dmat4, 2> clip_from_room_{};
   std::array<double, 2> near_m_{};
   std::vector<DrawBlock> blocks_;  // indexed by draw
-  std::vector<std::uint8_t> how_;  // kDrawn and the other flags, indexed by draw
+  std::vector<std::uint8_t> how_;  // flags such as kDrawn, indexed by draw
   std::vector<MeshCopy> copies_;
   std::vector<std::uint32_t> copy_counts_;  // indexed by node
   std::vector<scene::Vertex> shapes_;
@@ -97,7 +97,7 @@ class Damage {
   struct Volume {
     glm::dmat4 box_from_room{1.0};
     glm::dvec3 low{0.0}, high{0.0};
-    glm::dvec3 per_m{1.0};  // at most this many units along each axis per metre of the room
+    glm::dvec3 per_m{1.0};  // largest number of units along each axis per metre of the room
   };
   struct CopyChange {
     std::uint32_t draw = 0;
@@ -119,9 +119,9 @@ class Damage {
   void add_contact(const DrawnFrame& of, const DrawnFrame& now, const SceneGeometry& geometry, PixelTiles& tiles) const;
   static void add_panels(const DrawnFrame& before, const DrawnFrame& now, PixelTiles& tiles);
 
-  std::vector<std::uint8_t> changed_;     // indexed by draw
+  std::vector<std::uint8_t> changed_;     // flags indexed by draw
   std::vector<std::uint32_t> changes_;    // changed draws
-  std::vector<CopyChange> copy_changes_;  // changed copies of draws that have not changed otherwise
+  std::vector<CopyChange> copy_changes_;  // changed copies of draws that are otherwise unchanged
 };
 
 // Newest changes of the eyes' images, so that pictures made from an earlier state can follow them.
@@ -138,7 +138,7 @@ class EyeChanges {
 
  private:
   static constexpr std::size_t kKept = 8;
-  std::array<PixelArea, kKept> newest_;  // change i is at i % kKept
+  std::array<PixelArea, kKept> newest_;  // ring buffer: change i is at i % kKept
   std::uint64_t count_ = 0;
 };
 

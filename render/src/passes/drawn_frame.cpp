@@ -14,11 +14,11 @@
 namespace afm::render {
 namespace {
 
-constexpr int kMarginPx = 2;  // margin for a device that computes in float
+constexpr int kMarginPx = 2;  // margin for devices that compute in float
 constexpr double kFarPx = 1e6;
 constexpr MeshCopy kNoCopy{.scale = 0.0F, .turn = glm::vec4(0.0F), .tint = glm::vec4(0.0F)};
 
-// Equal bytes draw the same; equal numbers with different bytes (0 and -0) only cost a redraw.
+// True for equal bytes, which draw the same; equal numbers with different bytes (0 and -0) only cost a redraw.
 template <class Block>
 bool same_bytes(const Block& a, const Block& b) {
   const auto bytes = [](const Block& block) { return std::as_bytes(std::span(&block, 1)).data(); };
@@ -27,7 +27,7 @@ bool same_bytes(const Block& a, const Block& b) {
 
 }  // namespace
 
-// A zero matrix collapses a hidden draw to a point.
+// Transform as used by the shaders: a zero matrix collapses a hidden draw to a point.
 glm::dmat4 DrawnFrame::room_from_node(std::uint32_t draw) const {
   glm::dmat4 m(blocks_[draw].room_from_node);
   for (glm::length_t column = 0; column < 4; ++column) m[column][3] = column == 3 ? 1.0 : 0.0;

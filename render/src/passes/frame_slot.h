@@ -76,7 +76,7 @@ class FrameSlot {
   Recorded recorded;
 
   // work done in the slot's newest frame
-  bool painted = false;   // panels
+  bool painted = false;   // true: panels painted
   bool shadowed = false;  // shadow map redrawn
   PixelArea area;         // redrawn part of the eyes
 
@@ -85,7 +85,7 @@ class FrameSlot {
  private:
   vk::raii::CommandPool pool_;
   vk::raii::CommandBuffers commands_{nullptr};
-  std::vector<Buffer> uniforms_;  // one per pass
+  std::vector<Buffer> uniforms_;  // one buffer per pass
   std::uint32_t draw_stride_;
   float largest_point_px_;
   Buffer draw_blocks_;

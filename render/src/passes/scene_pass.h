@@ -32,12 +32,12 @@ class ScenePass {
     const SceneMaterials& materials;
     const DrawList& draws;
     vk::DescriptorSet frame_set;
-    vk::DescriptorSet draw_set;         // as FrameSlot::draw_set()
-    std::uint32_t draw_stride = 0;      // as FrameSlot::draw_stride()
-    const DrawnFrame* frame = nullptr;  // if `box` is set, used to skip draws outside it
-    std::optional<PixelBox> box{};      // scissor, over an earlier picture
-    vk::Buffer copies{};                // as FrameSlot::copies()
-    vk::Buffer shapes{};                // as FrameSlot::shapes()
+    vk::DescriptorSet draw_set;         // descriptor set of FrameSlot::draw_set()
+    std::uint32_t draw_stride = 0;      // bytes between draw blocks, as in FrameSlot::draw_stride()
+    const DrawnFrame* frame = nullptr;  // frame used to skip draws outside `box`, if that is set
+    std::optional<PixelBox> box{};      // scissor over an earlier picture
+    vk::Buffer copies{};                // buffer of FrameSlot::copies()
+    vk::Buffer shapes{};                // buffer of FrameSlot::shapes()
   };
   // Draws `draws` of the input's geometry; the input's frame set is FrameSlot::shadow_set().
   void record_shadow(const vk::raii::CommandBuffer& command, const Input& input, std::span<const std::uint32_t> draws);
@@ -46,7 +46,7 @@ class ScenePass {
  private:
   struct PlainPipelines {
     EyePipeline single_sided, double_sided, unlit;
-    EyePipeline smooth;  // Shading::LightByVertex, without fog
+    EyePipeline smooth;  // Shading::LightByVertex without fog
   };
   Look plain_look() const { return {*layout_, one_light_}; }
   static PlainPipelines plain_pipelines(const Device& device, const Look& look, Blending blending,
@@ -74,14 +74,14 @@ class ScenePass {
   vk::raii::PipelineLayout layout_;
   vk::raii::PipelineLayout shadow_layout_;
   vk::raii::PipelineLayout variant_layout_;
-  std::array<PlainPipelines, 2> opaque_;                         // without and with fog
+  std::array<PlainPipelines, 2> opaque_;                         // pipelines without and with fog
   vk::raii::Pipeline shadow_{nullptr}, shadow_copies_{nullptr};  // created at first use
-  std::array<EyePipeline, 2> copies_;                            // without and with fog
-  EyePipeline fine_;                                             // shaded per vertex, without fog
+  std::array<EyePipeline, 2> copies_;                            // pipelines without and with fog
+  EyePipeline fine_;                                             // pipeline for per-vertex shading, without fog
   EyePipeline background_;                                       // pipeline for pixels without an object
-  EyePipeline erasing_background_;                               // overwrites the old contents
+  EyePipeline erasing_background_;                               // pipeline that overwrites the old contents
   std::array<PlainPipelines, 2> blended_;
-  std::vector<EyePipeline> variants_;  // in the order of SceneGeometry::variants()
+  std::vector<EyePipeline> variants_;  // pipelines in the order of SceneGeometry::variants()
 };
 
 }  // namespace afm::render

@@ -15,7 +15,7 @@ namespace {
 constexpr int kSettled = 120;  // frames
 constexpr vk::Rect2D kWholeMap{.extent = {kShadowMapSize, kShadowMapSize}};
 
-// The smallest part that holds both, of which either may be empty.
+// Smallest rectangle around both, of which either may be empty.
 vk::Rect2D around_both(const vk::Rect2D& a, const vk::Rect2D& b) {
   const auto empty = [](const vk::Rect2D& part) { return part.extent.width == 0 || part.extent.height == 0; };
   if (empty(a)) return b;

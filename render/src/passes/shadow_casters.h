@@ -60,7 +60,7 @@ class ShadowCasters {
   std::vector<std::vector<MeshCopy>> copies_;  // indexed by caster
   std::vector<int> frames_at_rest_;            // indexed by caster, up to the count that makes it static
   std::vector<std::uint32_t> static_, dynamic_, dynamic_before_;
-  bool static_drawn_ = false;  // the static map shows static_
+  bool static_drawn_ = false;  // true: the static map shows static_
   vk::Rect2D dirty_, drawn_, changed_;
   vk::Rect2D covered_;  // part outside which the map is empty
 };

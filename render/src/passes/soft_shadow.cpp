@@ -28,7 +28,7 @@ DeviceImage create_moments(const Device& device, const char* name) {
                        .usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled});
 }
 
-// White outside, that is, lit.
+// Creates a sampler with a white border, which means lit.
 vk::raii::Sampler create_border_sampler(const Device& device, vk::Filter filter) {
   return vk::raii::Sampler(*device, vk::SamplerCreateInfo{.magFilter = filter,
                                                           .minFilter = filter,

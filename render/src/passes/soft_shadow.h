@@ -19,7 +19,7 @@ class SoftShadow {
   // be sampled before and afterwards. The first part must be the whole map.
   void record(const vk::raii::CommandBuffer& command, const vk::Rect2D& changed);
 
-  // In place of record(): an image without contents for pipelines that do not read it.
+  // Replaces record(): an image without contents for pipelines that do not read it.
   void leave_empty() const;
 
   vk::DescriptorImageInfo descriptor() const;
@@ -29,12 +29,12 @@ class SoftShadow {
   void draw(const vk::raii::CommandBuffer& command, Step step, const vk::Rect2D& part);
 
   const Device& device_;
-  std::array<DeviceImage, 2> images_;  // by step
+  std::array<DeviceImage, 2> images_;  // images indexed by step
   std::array<vk::raii::ImageView, 2> views_;
   vk::raii::Sampler sampler_, texel_sampler_;
   vk::raii::DescriptorSetLayout set_layout_;
   vk::raii::PipelineLayout layout_;
-  std::array<vk::raii::Pipeline, 2> pipelines_{nullptr, nullptr};  // by step, created at first use
+  std::array<vk::raii::Pipeline, 2> pipelines_{nullptr, nullptr};  // pipelines indexed by step, created at first use
   vk::raii::DescriptorPool pool_;
   vk::raii::DescriptorSets sets_;
 };

@@ -117,7 +117,7 @@ struct DepthMeter::Parts {
   std::optional<DepthRange> newest;
 };
 
-// The eyes' images may have been recreated since the last time.
+// Binds the eyes' images, which may have been recreated since the last time.
 void DepthMeter::Parts::bind(const EyeTargets& eyes) {
   const auto depth = [&](scene::Eye eye) {
     return vk::DescriptorImageInfo{

@@ -62,8 +62,8 @@ struct Renderer::Parts {
   std::vector<GpuTimer> clocks;  // one per slot, or none
   vk::raii::Semaphore timeline;
   std::uint64_t frames = 0;                // number of frames submitted
-  bool eyes_drawn = false;                 // since the eye images were created
-  bool rested = false;                     // nothing submitted, because the newest frame looks like the one before
+  bool eyes_drawn = false;                 // true: eyes drawn since the eye images were created
+  bool rested = false;                     // true: nothing submitted, since the newest frame looks like the last one
   double redrawn_share = 0;                // as Renderer::redrawn_share()
   double near_m = 0;                       // near plane of the newest frame: depth is near_m / distance
   double compose_ms = 0, readback_ms = 0;  // as in PassTimes; set by the caller
