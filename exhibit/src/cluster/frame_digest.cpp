@@ -73,7 +73,7 @@ class FrameHash {
 }  // namespace
 
 std::uint64_t digest_of(const render::FrameState& frame, const cluster::ShownView& view) {
-  const std::array<const void*, 2> own{&frame.eyes, &frame.panels_apart};  // decided by each machine for itself
+  const std::array<const void*, 2> own{&frame.eyes, &frame.panels_apart};  // fields decided separately by each machine
   FrameHash hash;
   core::for_each_member(
       [&](const auto& member) {

@@ -12,10 +12,10 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kTextsBeforeRows = 3;  // guidance, caption, letters
+constexpr std::size_t kTextsBeforeRows = 3;  // number of texts before the rows: guidance, caption, letters
 constexpr double kFarthestSentM = 1e6;       // limit of a picture's depth
 
-// Each list of pairs defines both directions of the conversion.
+// Lists of pairs, each of which defines both directions of the conversion.
 
 template <class Copy, class Tip, class Shown>
 void copy_tip(const Copy& copy, Tip& tip, Shown& shown) {

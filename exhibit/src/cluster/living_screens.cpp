@@ -15,11 +15,11 @@ using glm::dvec3;
 
 constexpr double kSameDirection = 0.999;
 constexpr double kTapeM = 0.02;        // accuracy of a wall measured by tape
-constexpr double kLeastCrossed = 0.5;  // share of the banner's height on a screen that shows it
-constexpr double kSeamShare = 0.02;    // gap between two screens, as a share of the banner's width
-constexpr double kRimShare = 0.01;     // gap to the rim of a screen, as a share of the banner's width
+constexpr double kLeastCrossed = 0.5;  // smallest fraction of the banner's height on a screen that shows it
+constexpr double kSeamShare = 0.02;    // gap between two screens, relative to the banner's width
+constexpr double kRimShare = 0.01;     // gap to the rim of a screen, relative to the banner's width
 
-// A stretch of the wall in widths of the banner, which is from 0 to 1.
+// A stretch of the wall, in units of the banner's width; the banner extends from 0 to 1.
 struct Stretch {
   double from = 0, to = 0;
   double length() const { return to - from; }
@@ -34,7 +34,7 @@ bool draws(const scene::Wall& wall, std::size_t screen, const AbsentMachines& ab
          std::any_of(wall.outputs_elsewhere.begin(), wall.outputs_elsewhere.end(), on_screen);
 }
 
-// Stretch of this screen, if the banner lies in its plane and on it.
+// Stretch of this screen, if the banner is in its plane and on it.
 std::optional<Stretch> crossed(const render::PanelPlacement& banner, const scene::Screen& screen) {
   const double width_m = glm::length(banner.right_m), height_m = glm::length(banner.up_m);
   const dvec3 right = banner.right_m / width_m, up = banner.up_m / height_m, out = glm::cross(right, up);
@@ -48,7 +48,7 @@ std::optional<Stretch> crossed(const render::PanelPlacement& banner, const scene
   return part;
 }
 
-// The widest of the stretches, with those that adjoin it.
+// Widest stretch, extended by those that adjoin it.
 Stretch widest(std::vector<Stretch> parts) {
   std::sort(parts.begin(), parts.end(), [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
   Stretch best, now = parts.front();

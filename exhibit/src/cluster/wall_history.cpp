@@ -39,7 +39,7 @@ class HistoryWriter {
   std::vector<std::byte> bytes_;
 };
 
-// After the first invalid value all later fields keep their values.
+// Reads a history. After the first invalid value, all later fields keep their values.
 class HistoryReader {
  public:
   explicit HistoryReader(std::span<const std::byte> bytes) : left_(bytes) {}

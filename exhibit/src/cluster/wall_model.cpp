@@ -33,7 +33,7 @@ Enum enumerator_of(const json& value) {
   return known;
 }
 
-// Path on the master's computer, never used as a folder here.
+// Path on the master's computer, never used as a folder on this one.
 std::string checked_name(const json& value) {
   auto name = value.get<std::string>();
   if (name.size() > 4096 || name.find('\0') != std::string::npos) throw std::invalid_argument("a file name is invalid");
@@ -48,7 +48,7 @@ std::map<std::string, std::string> meshes_of(const json& root) {
   return meshes;
 }
 
-// A lever that taps, as its user typed it: whether it can be felt is checked with each sample.
+// Settings of a lever in tapping mode as typed by its user; each sample checks if it can be felt.
 curves::TappedHand tapping_of(const json& root) {
   curves::TappedHand hand;
   root.at("mode").get_to(hand.choice.mode);
@@ -183,7 +183,7 @@ core::Result<ExhibitFiles> unpack(const WallModel& model, const std::string& ass
     if (auto here = own_file_is_here(file, what); !here) return tl::unexpected(here.error());
   }
   const std::filesystem::path beside = std::filesystem::path(folder) / "wall";
-  std::error_code failed;  // a file whose folder is missing is not written
+  std::error_code failed;  // unused, since a file whose folder is missing is not written
   std::filesystem::create_directories(beside, failed);
   for (const auto& [name, text] : model.meshes) {
     std::filesystem::create_directories((beside / name).parent_path(), failed);

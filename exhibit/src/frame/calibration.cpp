@@ -11,7 +11,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// The grids of overlapping screens have their lines at the same places on the wall.
+// Adds ramps, and aligns the grid with those of overlapping screens: lines lie at the same places on the wall.
 void add_blending(const scene::Screen& screen, const Phrases& phrases, render::CalibrationPanel& panel) {
   const glm::dvec3 from_middle = screen.blend->origin - screen.center();
   panel.grid_from_m = {glm::dot(from_middle, glm::normalize(screen.lower_right - screen.lower_left)),

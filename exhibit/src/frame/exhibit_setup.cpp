@@ -66,7 +66,7 @@ glm::uvec2 Stage::eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) 
 
 namespace {
 
-// The requested materials; otherwise all of the user's file, or the paper's three.
+// Requested materials; otherwise all of the user's file, or the paper's three.
 core::Result<scene::MaterialLibrary> shown_materials(const ExhibitFiles& files) {
   auto library = scene::load_materials(files.assets_dir + "/materials.toml");
   if (!library) return library;
@@ -90,7 +90,7 @@ core::Result<scene::MaterialLibrary> shown_materials(const ExhibitFiles& files) 
   return shown;
 }
 
-// Null if no particles are wanted.
+// Loads the set of particles; null if none is wanted.
 core::Result<std::shared_ptr<const scene::ParticleSet>> load_particles(const ExhibitFiles& files) {
   if (files.particles.empty() && files.recorded_particles == nullptr) return nullptr;
   if (!files.sample.empty()) {

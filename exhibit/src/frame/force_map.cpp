@@ -25,7 +25,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// A line a second on what is read; ends after an interruption.
+// Logs one line per second about the curves read; ends after an interruption.
 curves::CurveMap::Progress progress_of(const std::string& file) {
   return [file, told = std::chrono::steady_clock::now()](std::size_t read, std::size_t count) mutable {
     const auto now = std::chrono::steady_clock::now();
@@ -37,7 +37,7 @@ curves::CurveMap::Progress progress_of(const std::string& file) {
   };
 }
 
-// Options that need others, or exclude them.
+// Checks options that need others, or exclude them.
 core::Result<void> check_options(const ExhibitFiles& files) {
   if (!files.particles.empty())
     return core::wrong_usage("--force-map: its law is no particle's: leave --particles out");
@@ -54,15 +54,15 @@ core::Result<void> check_options(const ExhibitFiles& files) {
   return {};
 }
 
-// The least and the largest of the map's values.
+// Smallest and largest value of the map.
 std::ranges::minmax_result<float> ends_of(const scene::SharedLawMap& map, std::span<const float> values) {
   return std::ranges::minmax(values.first(std::size_t{map.columns} * map.rows));
 }
 
-// A map whose values differ by less has one value and noise, which would be felt from nothing to the strongest.
+// Smallest ratio of the map's values. Below it the map has one value and noise, which would be felt at full range.
 constexpr float kLeastRatio = 1.05F;
 
-// Empty if such a vibration would be felt somewhere on the map.
+// Reason why the quantity cannot vibrate on this map; empty if it can be felt somewhere.
 std::string why_nothing_vibrates(const curves::SampleModel& whole, scene::MapVibration quantity) {
   const scene::SharedLawMap& map = whole.felt_map->laws;
   switch (quantity) {
@@ -86,7 +86,7 @@ std::string why_nothing_vibrates(const curves::SampleModel& whole, scene::MapVib
   return {};
 }
 
-// The map of this pixel, felt whole.
+// Sample of this pixel's whole map.
 core::Result<std::shared_ptr<const curves::SampleModel>> felt_whole(const curves::SampleModel& pixel,
                                                                     const ExhibitFiles& files,
                                                                     const curves::FitOptions& fit,

@@ -10,12 +10,12 @@
 
 namespace afm::exhibit {
 
-// The pixel of the force map that is felt first; null if no map is wanted. Reads, and where a fit is wanted fits, every
-// curve, with progress in the log. BadInputFile as from curves::CurveMap::load(), WrongUsage for a fit that cannot be
-// made; Failed if it is interrupted.
+// Pixel of the force map that is felt first; null if no map is wanted. Reads and, if wanted, fits every
+// curve, with progress in the log. BadInputFile as from curves::CurveMap::load(), WrongUsage if a fit
+// is impossible; Failed if interrupted.
 core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const ExhibitFiles& files);
 
-// Its entry on the shelf, without the pixel in its title: it may change.
+// Entry of that pixel's map on the shelf. Its title omits the pixel, which may change.
 scene::MaterialEntry entry_of(const curves::SampleModel& pixel);
 
 }  // namespace afm::exhibit

@@ -36,16 +36,16 @@ using physics::format_quantity;
 
 // Axes around the loop, in units of the pull's reach and strength.
 constexpr double kAxisBelow = 0.42, kAxisAbove = 1.42;
-constexpr double kPushShare = 0.4;  // deepest push, as a share of the reach
+constexpr double kPushShare = 0.4;  // deepest push, relative to the reach
 constexpr double kHardlyPulled = 0.05;
-constexpr const char* kApart = "     ";  // separates two facts on a line
+constexpr const char* kApart = "     ";  // separator between two facts on a line
 
 struct StateSign {
   render::StateShape shape;
   glm::vec3 color;
 };
 
-// In the order of scene::ServoState, then that of a stopped force: that of no force.
+// Signs in the order of scene::ServoState, then one for a stopped force, the same as for no force.
 const std::array<StateSign, 6> kStateSigns{{{render::StateShape::Square, {0.70F, 0.74F, 0.80F}},
                                             {render::StateShape::Triangle, {0.94F, 0.89F, 0.26F}},
                                             {render::StateShape::Circle, {0.34F, 0.85F, 0.60F}},
@@ -54,7 +54,7 @@ const std::array<StateSign, 6> kStateSigns{{{render::StateShape::Square, {0.70F,
                                             {render::StateShape::Square, {0.70F, 0.74F, 0.80F}}}};
 static_assert(after(Phrase::StateOff, kStateSigns.size()) == Phrase::NotRealTime);
 
-// "33.1 nm": length shown by one metre of the wall.
+// Length shown by one metre of the wall, such as "33.1 nm".
 std::string scale_text(double m_per_m) {
   std::string text = format_quantity(physics::Length(m_per_m), physics::kLengthUnits, 3);
   if (const std::size_t micro = text.find("um"); micro != std::string::npos) text.replace(micro, 1, "\u00b5");
@@ -86,7 +86,7 @@ class Axes {
     panel.force_max_nn = kAxisAbove * a0_nm_;
   }
 
-  bool of_amplitude() const { return a0_nm_ > 0.0; }  // true of a lever that taps
+  bool of_amplitude() const { return a0_nm_ > 0.0; }  // true in tapping mode
 
  private:
   double reach_nm_ = 1e-6, pull_nn_ = 1e-9, push_nn_ = 0.0, a0_nm_ = 0.0;
@@ -211,7 +211,7 @@ const HeightRelief& FrameBuilder::marks_of(const ParticlesNow& now) const {
   return marks_->relief;
 }
 
-// The heights are sampled anew only where another sample, or another size of it, is shown.
+// Relief of the sample in colours, sampled again only for another sample or size.
 const HeightRelief& FrameBuilder::sample_in_colours(std::size_t material) const {
   const curves::SampleModel& model = (*materials_)[material];
   const double release_z_m = model.scaling.release_z_m();
@@ -232,7 +232,7 @@ render::ForcePanel FrameBuilder::force_panel(const Moment& moment) const {
   for (std::size_t i = 0; i < materials_->size(); ++i) {
     const bool in_front =
         moment.wall.centerpiece == Centerpiece::Plot || !moment.wall.material || moment.wall.material == i;
-    if (!in_front) continue;  // its forces exceed the axes
+    if (!in_front) continue;  // curve whose forces would exceed the axes
     axes.include((*materials_)[i]);
     if (i >= moment.curves.size() || moment.curves[i].empty()) continue;
     panel.curves.push_back(moment.curves[i].plot(phrases.word((*materials_)[i].setup.material.title), curve_color(i)));

@@ -44,7 +44,7 @@ core::Result<std::string> digest_of_file(const std::string& path) {
   return fmt::format("{:016x}", digest.value());
 }
 
-// Place of the map of a session now.
+// Current place of the map of a session.
 std::string place_of_map(const servo::RecordedForceMap& map, const std::string& session, const std::string& given) {
   namespace fs = std::filesystem;
   std::error_code none;
@@ -54,7 +54,7 @@ std::string place_of_map(const servo::RecordedForceMap& map, const std::string& 
   return fs::exists(beside, none) ? beside.string() : map.file;
 }
 
-// The files that show the map of a session again. Fails where it cannot be read as it was then.
+// Files that reproduce the map of a session. Fails if it cannot be read in the same way.
 core::Result<ExhibitFiles> found_map(const servo::RecordedSession& session, const std::string& path,
                                      ExhibitFiles files) {
   const auto bad = [&](const std::string& why) {

@@ -18,7 +18,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Names for files, independent of the enumeration's values.
+// Names for files, independent of the values in the enumeration.
 struct CenterpieceRow {
   Centerpiece piece;
   std::string_view name;
@@ -92,7 +92,7 @@ std::vector<CycleCurve> curves_until(const servo::RecordedSession& session, std:
       here.material = static_cast<std::int32_t>(own);
       history.add(here);
     }
-    sample.material = static_cast<std::int32_t>(own);  // its index among the materials drawn now
+    sample.material = static_cast<std::int32_t>(own);  // index among the materials drawn now
     history.add(sample);
   }
   std::vector<CycleCurve> curves(history.curves().begin(), history.curves().end());

@@ -26,8 +26,8 @@ constexpr glm::vec3 kRightColor{0.337F, 0.706F, 0.914F}, kLeftColor{0.902F, 0.62
     kNowColor{0.00F, 0.78F, 0.56F};
 constexpr double kLoopMargin = 0.08;  // share of the axes around the curves
 constexpr double kShownPeriods = 3.0,
-                 kPeriodsBeside = 1.0;   // shown periods of a lattice, and those left of the tip's own
-constexpr double kManyPeriods = 6.0;     // longest stroke that is shown whole
+                 kPeriodsBeside = 1.0;   // shown periods of a lattice, and those to the left of the tip's own
+constexpr double kManyPeriods = 6.0;     // longest stroke shown as a whole
 constexpr double kLeastForceNn = 0.002;  // half range of the force, so that rounding is not drawn as friction
 
 render::PlotPoint plotted(const physics::LateralPoint& point) {
@@ -57,14 +57,14 @@ void add_strokes(const Run& run, const physics::FrictionLoop& loop, const Phrase
                     .retract = {}});
 }
 
-// Places along a stroke, or a part of it.
+// Places along a stroke, or along a part of it.
 struct Stroke {
   double low_nm = std::numeric_limits<double>::infinity(), high_nm = -low_nm;
 
   double length_nm() const { return high_nm - low_nm; }
 };
 
-// Shows whole periods around a place, so that the teeth stay where they are while the tip moves on.
+// Shows whole periods around a place, so that the teeth keep their places while the tip moves.
 Stroke zoom_to(double place_nm, double period_nm, render::ForcePanel& panel) {
   const double low_nm = (std::floor(place_nm / period_nm) - kPeriodsBeside) * period_nm;
   const Stroke shown{.low_nm = low_nm, .high_nm = low_nm + kShownPeriods * period_nm};
@@ -91,7 +91,7 @@ Stroke stroke_of(const render::ForcePanel& panel) {
   return stroke;
 }
 
-// `along`: the places to show, those of the curves at least.
+// Sets the axes; `along`: the places to show, at least those of the curves.
 void fit_axes(Stroke along, render::ForcePanel& panel) {
   double &left = along.low_nm, &right = along.high_nm, low = -kLeastForceNn, high = kLeastForceNn;
   for (const render::PlotCurve& curve : panel.curves) {

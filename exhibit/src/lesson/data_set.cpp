@@ -79,7 +79,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-// The text with the line ends of Unix, and without a byte order mark.
+// Text with Unix line ends and without a byte order mark.
 std::string plain_lines(std::string_view bytes) {
   std::string text;
   bytes = core::without_byte_order_mark(bytes);
@@ -133,7 +133,7 @@ auto find_participant(std::vector<Participant>& participants, const std::string&
                       [&](const Participant& each) { return each.id == "sub-" + code; });
 }
 
-// The lowest unused row: reusing the row of a withdrawn participant keeps the design balanced.
+// Lowest unused row: reusing the row of a withdrawn participant keeps the design balanced.
 std::size_t free_order(std::span<const Participant> participants) {
   std::size_t order = 0;
   const auto taken = [&](const Participant& each) { return each.order == order; };
@@ -141,12 +141,12 @@ std::size_t free_order(std::span<const Participant> participants) {
   return order;
 }
 
-// Start of the names of a lesson's files.
+// Beginning of the names of a lesson's files.
 std::string task_path(const std::string& folder, const std::string& code, const std::string& lesson) {
   return fmt::format("{}/sub-{}/beh/sub-{}_task-{}", folder, code, code, task_label(lesson));
 }
 
-// Writes what the data set as a whole needs, unless it is there.
+// Writes the files of the data set as a whole, unless they exist.
 core::Result<void> describe(const std::string& folder) {
   for (const RootFile& file : root_files()) {
     std::error_code ignored;
@@ -292,7 +292,7 @@ core::Result<void> DataSet::finish(LessonEnd end) {
   auto participants = load_participants(folder_);
   if (!participants) return tl::unexpected(participants.error());
   const auto found = find_participant(*participants, code_);
-  if (found == participants->end()) return {};  // withdrawn in the meantime
+  if (found == participants->end()) return {};  // participant withdrawn in the meantime
   found->comfort = word_of(end);
   return save_participants(folder_, *participants);
 }

@@ -23,7 +23,7 @@ struct LevelText {
 struct ColumnText {
   const char* name;
   const char* description;
-  const char* units;  // may be null
+  const char* units;  // unit of the values; may be null
   std::array<LevelText, 3> levels{};
 };
 
@@ -106,7 +106,7 @@ void add_levels(ordered_json& json, const char* column, const Rows& rows) {
   for (const auto& row : rows) json[column]["Levels"][std::string(row.word)] = row.meaning;
 }
 
-// The program that showed the stimuli, by the names of BIDS.
+// Name in BIDS for the program that showed the stimuli.
 constexpr const char* kPresentation = "StimulusPresentation";
 ordered_json presentation() { return {{"SoftwareName", "TouchAFM"}, {"SoftwareVersion", core::kVersion}}; }
 
@@ -195,7 +195,7 @@ std::string aids_of(const PushFigures& push) {
   return aids.empty() ? kMissingValue : aids;
 }
 
-// The columns of a push, each after a tab.
+// Columns of a push, each after a tab.
 std::string push_cells(const std::optional<PushFigures>& push) {
   if (!push) return fmt::format("\t{0}\t{0}\t{0}\t{0}\t{0}\t{0}", kMissingValue);
   return fmt::format("\t{}\t{}\t{}\t{:.6g}\t{:.6g}\t{}", push->strokes, push->losses, push->undos, 1e18 * push->work_j,

@@ -14,14 +14,14 @@ namespace afm::exhibit {
 
 inline constexpr const char* kMissingValue = "n/a";
 
-// A file of the data set's root, by the names that it may have; the first one is ours.
+// A file in the data set's root, with the names that it may have; the first one is ours.
 struct RootFile {
   std::vector<std::string> names;
   std::string text;
 };
 std::vector<RootFile> root_files();
 
-// A lesson's id in the names of files: only letters and digits.
+// Id of a lesson for use in file names: only letters and digits.
 std::string task_label(const std::string& lesson);
 
 nlohmann::ordered_json participants_json();

@@ -13,9 +13,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kEyeM = 2.0;        // distance in front of the page
-constexpr double kBorder = 0.02;     // share of the page's height
-constexpr double kTargetHigh = 0.1;  // share of the page's height
+constexpr double kEyeM = 2.0;        // distance of the eyes in front of the page
+constexpr double kBorder = 0.02;     // relative to the page's height
+constexpr double kTargetHigh = 0.1;  // relative to the page's height
 constexpr double kLetterM = 0.024;   // mean width of a letter
 
 using Wants = LessonPrompt::Wants;

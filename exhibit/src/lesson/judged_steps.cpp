@@ -18,7 +18,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// In practice trials the participant gets feedback on the answer.
+// Feedback on the answer, for practice trials.
 std::string feedback(const Phrases& phrases, bool right, const std::string& right_answer) {
   return right ? phrases[Phrase::LessonRight] : phrases.text<Phrase::LessonWrong>(right_answer);
 }
@@ -109,7 +109,7 @@ class IdentifyActivity final : public StepActivity {
   double began_s_, asked_s_ = 0;
 };
 
-// The hand moves the swing through both states. At a height at which both exist, drawn for each trial, and in the drawn
+// Step in which the hand moves the swing through both states. At a random height at which both exist, and in the drawn
 // state, the lesson asks which it is, so that no height gives the answer.
 class StateActivity final : public StepActivity {
  public:
@@ -194,14 +194,14 @@ class StateActivity final : public StepActivity {
   TrialCount count_;
   std::vector<std::size_t> shown_;  // index into kStates for each trial
   std::size_t trial_ = 0;
-  double ask_m_ = 0;                // Z of the question
-  std::optional<double> before_m_;  // Z of the previous sample, in the state of the trial
+  double ask_m_ = 0;                // Z at which the question is asked
+  std::optional<double> before_m_;  // Z of the previous sample in the state of the trial
   std::optional<double> asked_s_;   // time of the question
   std::string note_;
   double began_s_ = 0;
 };
 
-// A trial is two cycles, one of which has the stronger pull-off.
+// Step whose trials are two cycles, one of which has the stronger pull-off.
 class ThresholdActivity final : public StepActivity {
  public:
   ThresholdActivity(StepContext context, double now_s)
@@ -300,7 +300,7 @@ class ThresholdActivity final : public StepActivity {
   double began_s_ = 0, asked_s_ = 0;
 };
 
-// The participant assembles the curve from five parts by choosing each one's shape, which requires no precise aim and
+// Step in which the participant assembles a curve from five parts, by choosing each one's shape: needs no aim, and
 // works by ear.
 class DrawActivity final : public StepActivity {
  public:
@@ -312,7 +312,7 @@ class DrawActivity final : public StepActivity {
 
   void describe(LessonPrompt& prompt) const override {
     prompt.wants = LessonPrompt::Wants::Answer;
-    prompt.hidden = true;  // the curve on the wall is the answer
+    prompt.hidden = true;  // the curve on the wall would be the answer
     prompt.words = joined(part_ == 0 ? context_.words() : "", context_.phrases[after(Phrase::DrawPart1, part_)]);
     for (std::size_t i = 0; i < kParts; ++i) {
       prompt.answers.push_back(context_.phrases[after(Phrase::DrawShape1, shapes_[i])]);

@@ -36,7 +36,7 @@ constexpr std::size_t kMostSteps = 100, kMostIdLetters = 40, kMostConditions = 4
 constexpr int kMostTrials = 200, kMostPractice = 20;
 constexpr double kLongestHintS = 600;
 
-// A part of file names, or of columns.
+// Reads a part of file names, or of columns.
 std::string read_id(const TomlTable& table, std::string_view key) {
   std::string value = table.text(key, kMostIdLetters);
   const bool plain = std::all_of(value.begin(), value.end(),
@@ -45,7 +45,7 @@ std::string read_id(const TomlTable& table, std::string_view key) {
   return value;
 }
 
-// A text for each language.
+// Reads a text for each language.
 LessonText read_words(const TomlTable& table, std::string_view key, std::size_t limit) {
   std::vector<std::string_view> known;
   std::string how;
@@ -78,7 +78,7 @@ struct ScaleWord {
   scene::ScaleMode mode;
   std::string_view word;
 };
-// Every scale but that of atoms, on which no hand compares two materials.
+// Every scale except that of atoms, on which no hand can compare two materials.
 constexpr auto kLessonScales = [] {
   std::array<ScaleWord, scene::kScalesOfSamples.size() - 1> rows{};
   std::size_t count = 0;
@@ -130,7 +130,7 @@ ThresholdPlan read_threshold(const TomlTable& table) {
   return plan;
 }
 
-// The materials of a step, by their places in the lesson's list.
+// Reads the materials of a step, as indices into the lesson's list.
 std::vector<std::size_t> read_materials(const TomlTable& table, const LessonStep& step, const Lesson& lesson) {
   std::vector<std::size_t> places;
   const auto place_of = [&](std::string_view key, const std::string& name) {
@@ -174,7 +174,7 @@ void refuse_picture(const TomlTable& table, const Lesson& lesson, const LessonSt
   table.refuse("each_condition", fmt::format("is impossible for {}: the condition picture takes the force away", what));
 }
 
-// The keys of each type, in addition to those of all steps.
+// Allows the keys of each kind of step, in addition to those of all steps.
 void allow_keys(const TomlTable& table, StepKind kind) {
   switch (kind) {
     case StepKind::Text:
@@ -301,7 +301,7 @@ Lesson read_lesson(const toml::table& root, const std::string& assets_dir) {
   return lesson;
 }
 
-// Adds the bytes of a file, if one is named.
+// Appends the bytes of a file, if one is named.
 core::Result<void> add_bytes(const std::string& file, std::string& all) {
   if (file.empty()) return {};
   const auto bytes = core::read_file(file);

@@ -11,9 +11,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kTargetsShare = 0.5;  // largest share of the panel's height
-constexpr double kTargetShare = 0.14;  // largest share for one target
-constexpr double kGapShare = 0.08;     // gap between two targets as a share of one
+constexpr double kTargetsShare = 0.5;  // largest fraction of the panel's height for all targets
+constexpr double kTargetShare = 0.14;  // largest fraction for one target
+constexpr double kGapShare = 0.08;     // gap between two targets, relative to a target
 
 std::size_t letters_of(std::string_view text) {
   return static_cast<std::size_t>(

@@ -32,11 +32,11 @@ using study::StepGround;
 
 constexpr std::size_t kMostPathLetters = 1000;
 constexpr std::size_t kMostLines = 20, kMostCorners = 20;
-constexpr double kNarrowestGroove = 0.5, kWidestGroove = 2.0;  // in radii of the tip
-constexpr double kShortestPart = 4.0;                          // in widths
+constexpr double kNarrowestGroove = 0.5, kWidestGroove = 2.0;  // width in radii of the tip
+constexpr double kShortestPart = 4.0;                          // length in widths of the groove
 constexpr const char* kLinesLike = "lines such as [[\"-50 nm, 0 nm\", \"50 nm, 0 nm\"]]";
 
-// The longer side of the field on which the particles of a set lie, with a radius around it: the reach of the hand.
+// Longer side of the field on which the particles of a set lie, with a radius around it: the reach of the hand.
 physics::Length field_side(const scene::ParticleSet& set) {
   auto least = set.particles.front().position, most = least;
   for (const physics::PlacedParticle& particle : set.particles) {
@@ -50,14 +50,14 @@ void refuse_push_key(const TomlTable& table, std::string_view key, PushUntil unt
   if (table.has(key)) table.refuse(key, fmt::format("is of no use with until = \"{}\"", row_of(until).word));
 }
 
-// A blind task that the set does not allow.
+// Refuses a blind task that the set does not allow.
 void refuse_impossible(const TomlTable& table, const PushPlan& plan, const scene::ParticleSet& set) {
   const auto task = blind_task_of(plan);
   const std::string why = task ? scene::why_not(*task, set) : std::string();
   if (!why.empty()) table.refuse("until", why);
 }
 
-// A corner of a line: "-50 nm, 0 nm".
+// Reads a corner of a line: "-50 nm, 0 nm".
 glm::dvec2 read_corner(const TomlTable& table, const toml::node& node, double reach_m) {
   const auto text = node.value<std::string_view>();
   const std::size_t comma = text ? text->find(',') : std::string_view::npos;
@@ -87,7 +87,7 @@ std::vector<glm::dvec2> read_line(const TomlTable& table, const toml::node& node
   return corners_m;
 }
 
-// Refuses parts that are too short, and lines of which no place can be measured.
+// Refuses parts that are too short, and lines on which no place can be measured.
 void refuse_short(const TomlTable& table, const LinesToWrite& lines, double tip_radius_m) {
   const double shortest_m = kShortestPart * lines.width_m;
   for (std::size_t number = 0; number < lines.lines_m.size(); ++number) {
@@ -108,7 +108,7 @@ void refuse_short(const TomlTable& table, const LinesToWrite& lines, double tip_
 
 }  // namespace
 
-// The set of particles that all steps of the lesson share.
+// Reads the set of particles that all steps of the lesson share.
 void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson& lesson) {
   lesson.particles = top.text("particles", kMostPathLetters);
   lesson.scale = scene::ScaleMode::Particles;
@@ -175,7 +175,7 @@ LinesToWrite read_lines(const TomlTable& table, const scene::ParticleSet& set) {
   return lines;
 }
 
-// With particles or a soft sample, the hand is on their scale, on which the force of a material is not to be judged.
+// Refuses steps on materials if there are particles or a soft sample: their scale does not suit a material's force.
 void refuse_kind_on_ground(const TomlTable& table, const study::StepKindRow& row, const Lesson& lesson) {
   const bool soft = lesson.set && scene::leaves_marks(*lesson.set);
   const auto refuse = [&](std::string_view what) { table.refuse("type", fmt::format("{} {}", row.word, what)); };

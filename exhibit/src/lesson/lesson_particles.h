@@ -12,17 +12,17 @@ class TomlTable;
 
 namespace afm::exhibit {
 
-// Reads the set of particles, or the soft sample, that all steps of a lesson share. Each function refuses, like
-// TomlTable, what does not fit.
+// Reads the set of particles, or the soft sample, shared by all steps of a lesson. Like TomlTable, each function
+// refuses invalid values.
 void read_particles(const scene::TomlTable& top, const std::string& assets_dir, Lesson& lesson);
 
-// Refuses a type of step for which the lesson's tip works on something else.
+// Refuses a kind of step that does not suit the sample under the lesson's tip.
 void refuse_kind_on_ground(const scene::TomlTable& table, const study::StepKindRow& row, const Lesson& lesson);
 
-// A push on that set of spheres.
+// Reads a push of spheres of that set.
 PushPlan read_push(const scene::TomlTable& table, const scene::ParticleSet& set);
 
-// Lines on that soft sample.
+// Reads lines for that soft sample.
 LinesToWrite read_lines(const scene::TomlTable& table, const scene::ParticleSet& set);
 
 }  // namespace afm::exhibit

@@ -16,8 +16,8 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kMinuteS = 60;
-constexpr double kLongestTrialS = 120;  // after the break has become due; then the break interrupts the trial
-constexpr double kTooEarlyS = 2;        // an earlier answer was meant for the prompt before the automatic break
+constexpr double kLongestTrialS = 120;  // time after the break has become due; then the break interrupts the trial
+constexpr double kTooEarlyS = 2;        // time in which an answer was meant for the prompt before the automatic break
 
 using MakeActivity = std::unique_ptr<StepActivity> (*)(const StepContext& context, double now_s);
 struct ActivityRow {
@@ -70,7 +70,7 @@ LessonRun::LessonRun(const Lesson& lesson, std::span<const curves::SampleModel> 
 
 LessonRun::~LessonRun() = default;
 
-// Repeats a run of steps under each condition as a whole.
+// Plans the order of the steps; a run of steps is repeated under each condition as a whole.
 void LessonRun::plan(std::size_t order) {
   const auto orders = williams_orders(lesson_.conditions.size());
   const std::vector<LessonStep>& steps = lesson_.steps;
@@ -123,7 +123,7 @@ core::Result<void> LessonRun::keep(TrialRow row) {
   return sink_(row);
 }
 
-// Result of a blind push, to be said with the next step.
+// Stores the result of a blind push, which is announced with the next step.
 void LessonRun::note_result(const TrialRow& row) {
   if (row.response.empty()) return;
   const bool line = row.stimulus == row_of(PushUntil::Line).word;

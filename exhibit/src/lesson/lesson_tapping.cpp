@@ -21,7 +21,7 @@ using scene::TomlTable;
 
 constexpr std::size_t kMostLetters = 40;
 
-// Numbers of the contact, under the names of the options of touchafm view, with _ for -.
+// Keys of the contact's numbers: the names of the options of touchafm view, with _ for -.
 constexpr std::array<std::string_view, 7> kContactKeys{
     "spring_constant", "resonance", "quality_factor", "tip_radius", "hamaker", "work_of_adhesion", "reduced_modulus"};
 
@@ -31,7 +31,7 @@ struct OfWord {
 };
 constexpr std::array kIdentifies{OfWord{false, "materials"}, OfWord{true, "states"}};
 
-// A contact parameter as the command line takes it.
+// Reads a contact parameter in the form of the command line.
 std::string read_contact(const TomlTable& table, std::string_view key, const std::string& option) {
   const curves::ContactParameter& parameter = *curves::find_contact_parameter(option);
   if (parameter.units.empty()) return fmt::format("{}", table.number(key, 0.0, 1e9));

@@ -7,15 +7,15 @@
 
 namespace afm::exhibit {
 
-// The lever of a lesson file's table `tapping`. Refuses, like TomlTable, unknown keys and texts that are no quantities;
-// whether a hand can feel the lever depends on the material (lesson_setup()).
+// Reads the lever in a lesson's table `tapping`. Refuses, like TomlTable, unknown keys and texts that are no
+// quantities; whether a hand can feel the lever depends on the material (lesson_setup()).
 curves::TappedHand read_tapping(const scene::TomlTable& top);
 
-// Refuses a type of step that does not go with a lever that taps, or needs one.
+// Refuses a kind of step that is impossible in tapping mode, or one that needs it.
 void refuse_kind_beside_tapping(const scene::TomlTable& table, const study::StepKindRow& row, const Lesson& lesson);
 
-// Returns whether a step `identify` asks for the state of the swing instead of the material; refuses what does not go
-// with it.
+// True if a step `identify` asks for the state of the swing instead of the material; refuses keys that exclude
+// it.
 bool read_states(const scene::TomlTable& table, const Lesson& lesson);
 
 }  // namespace afm::exhibit

@@ -14,7 +14,7 @@ namespace {
 
 using Wants = LessonPrompt::Wants;
 
-constexpr double kPutBackS = 1.0;  // between two orders: the servo drops one that comes too early
+constexpr double kPutBackS = 1.0;  // interval between two requests, since the servo drops one that comes too early
 
 }  // namespace
 
@@ -48,7 +48,7 @@ void LiveLesson::update() {
   prompt_ = std::move(next);
 }
 
-// Called after each action: the files begin with the consent, and end with the lesson.
+// Call after each action: the files begin with the consent, and end with the lesson.
 void LiveLesson::acted() {
   if (study_ && run_.consented() && !data_ && !error_) {
     if (auto begun = begin_data(); !begun) {
@@ -169,7 +169,7 @@ void LiveLesson::stop() {
   acted();
 }
 
-// Shows a blind sample only if the condition includes the picture.
+// True if the scene may be shown: a blind sample only if the condition includes the picture.
 bool LiveLesson::shows_scene() const {
   if (prompt_.dark) return false;
   if (prompt_.condition) return *prompt_.condition != Condition::Haptics;

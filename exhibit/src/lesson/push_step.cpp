@@ -15,7 +15,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// One trial: waits until all particles are at their start and the tip is off them, then until the push is done.
+// One-trial step: waits until all particles are at their start and the tip is off them, then until the push is done.
 class PushActivity final : public StepActivity {
  public:
   PushActivity(StepContext context, double now_s)
@@ -77,8 +77,8 @@ class PushActivity final : public StepActivity {
   std::uint64_t start_;  // digest of the places from which the push begins
   double began_s_;
   std::optional<PushTrial> trial_;  // nothing while the particles are to be put back
-  bool touches_ = false;            // the tip touches a particle
-  bool far_enough_ = false;         // a blind push is at the end of its line
+  bool touches_ = false;            // true: tip in contact with a particle
+  bool far_enough_ = false;         // true: blind push at the end of its line
   bool done_ = false;
 };
 

@@ -14,7 +14,7 @@ namespace {
 using physics::Length;
 using physics::Sideways;
 
-// With one target only its particle counts; pinned ones stay out of a pattern.
+// Set for the plan: with one target only its particle counts; pinned ones stay out of a pattern.
 scene::ParticleSet wanted_set(const scene::ParticleSet& set, const PushPlan& plan) {
   scene::ParticleSet wanted = set;
   wanted.blind = blind_task_of(plan);

@@ -14,7 +14,7 @@
 
 namespace afm::exhibit {
 
-// Task of a step; empty if the picture is shown.
+// Blind task of a step; empty if the picture is shown.
 std::optional<scene::BlindTask> blind_task_of(const PushPlan& plan);
 
 // Digest of the places of a set's spheres before the first push.
@@ -32,28 +32,28 @@ class PushTrial {
   void add(const scene::TipEvent& event);
   void add(const scene::TipSample& sample);
 
-  // The same; true once the push is done, then do not call it again.
+  // As in ParticleTask; true once the push is done, after which it must not be called again.
   bool look(std::span<const scene::ParticlePage> pages);
 
   const scene::TaskScore& score() const { return lost_ ? *lost_ : task_.score(); }
 
-  // The wall is to be dark, or the particle of a blind push is at the end of its line; with the newest pages.
+  // True if the wall must be dark, or the particle of a blind push is at the end of its line; with the newest pages.
   bool dark() const { return task_.dark(); }
   bool far_enough(std::span<const scene::ParticlePage> pages) const { return dark() && task_.far_enough(pages); }
 
-  // Measure of a finished push: root mean square distance from the targets, or from the line, or the distance that the
-  // particle has moved, in m; for Threshold the answer over the threshold.
+  // Measure of a finished push: root mean square distance from the targets, or from the line, or displacement of the
+  // particle, in m; for Threshold the answer divided by the threshold.
   double result() const { return result_; }
 
  private:
   physics::Length way_of(const physics::Sideways<physics::Length>& place) const;
 
   PushPlan plan_;
-  scene::ParticleSet set_;  // with only the required target, if there is one
+  scene::ParticleSet set_;  // particles with only the required target, if any
   physics::Sideways<physics::Length> start_;
   ParticleTask task_;
-  std::int32_t touched_ = scene::kNoParticle;  // newest particle that the tip has touched
-  std::optional<scene::TaskScore> lost_;       // score at the loss that was wanted
+  std::int32_t touched_ = scene::kNoParticle;  // particle last touched by the tip
+  std::optional<scene::TaskScore> lost_;       // score at the loss that the step asks for
   double result_ = 0;
 };
 

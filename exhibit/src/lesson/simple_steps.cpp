@@ -41,7 +41,7 @@ class TextActivity final : public StepActivity {
   bool done_ = false;
 };
 
-// Free exploration is one trial with a number of cycles on any of its materials.
+// Step of free exploration: one trial with a number of cycles on any of its materials.
 class CycleActivity final : public StepActivity {
  public:
   CycleActivity(StepContext context, double now_s)

@@ -32,17 +32,17 @@ struct SimulatedServo {
 
 namespace {
 
-constexpr int kCommandTicks = 20;     // a command of the hand
+constexpr int kCommandTicks = 20;     // ticks per command of the hand
 constexpr double kServoTickS = 1e-3;  // period of the servo
 constexpr int kFrameTicks = 16;
-constexpr double kTremorM = 0.3e-3;    // tremor of the hand, root mean square, each way along the sample
-constexpr double kHeldTremor = 0.5;    // share of the tremor that is left after a step
+constexpr double kTremorM = 0.3e-3;    // tremor of the hand along each axis of the sample, root mean square
+constexpr double kHeldTremor = 0.5;    // fraction of the tremor that is left after a step
 constexpr double kArmHeightM = 0.062;  // high enough to turn the force on
 constexpr double kWarmest = 0.6;       // motor heat at which the student lets the device cool before the next attempt
 constexpr double kMostS = 600.0;
 constexpr double kHigh = 3.2;  // height of the tip above the particles, in radii
 
-// The servo's constant part: one sample, face up, and the particles.
+// Constant part of the servo's model: one sample, face up, and the particles.
 std::unique_ptr<scene::SharedModel> servo_model(const curves::SampleModel& sample, const scene::ParticleSet& set) {
   auto model = std::make_unique<scene::SharedModel>();
   model->node_count = 2;
@@ -138,7 +138,7 @@ void SimulatedHand::put_back() {
   arm();
 }
 
-// Turns the force on, and goes above the middle.
+// Turns the force on, and moves above the middle.
 void SimulatedHand::arm() {
   aim({0.0, 0.0}, kArmHeightM, 0.3);
   tick(900);
@@ -190,7 +190,7 @@ void SimulatedHand::aim(const glm::dvec2& place_m, double height_m, double secon
                                            .turn_on_pressed = pressed ? 1U : 0U});
 }
 
-// The lesson hears every tick, and sees particles and marks at the end.
+// Runs ticks of the servo; the lesson gets every tick, and particles and marks at the end.
 void SimulatedHand::tick(int count) {
   for (int i = 0; i < count; ++i, ++ticks_) {
     if (ticks_ % kFrameTicks == 0)

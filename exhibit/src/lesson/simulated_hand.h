@@ -25,7 +25,7 @@ namespace afm::exhibit {
 
 class LessonRun;
 
-// The servo, its device and the segment between it and the hand.
+// Servo, its device, and the segment between servo and hand.
 struct SimulatedServo;
 
 // The hand of a simulated student who pushes particles or writes into a soft sample: the servo's own code moves them,
@@ -33,34 +33,34 @@ struct SimulatedServo;
 // a seed on the same build. One thread.
 class SimulatedHand {
  public:
-  // The one for this set, which must outlive the object. Fails if the servo cannot render it, or the sample.
+  // Creates the hand for this set, which must outlive it. Fails if the servo cannot render the set or the sample.
   static core::Result<std::unique_ptr<SimulatedHand>> create(const curves::SampleModel& sample,
                                                              const scene::ParticleSet& set, std::uint64_t seed);
   virtual ~SimulatedHand();
 
-  // Takes the step at which the run is, a push or lines, to its end; `now_s` is the lesson's time, which it moves on.
+  // Takes the current step of the run, a push or lines, to its end; advances `now_s`, the lesson's time.
   // Failed if that takes more than ten minutes.
   core::Result<void> take_step(LessonRun& run, double& now_s);
 
  protected:
-  static constexpr double kCommandS = 0.02;      // between two commands of the hand
-  static constexpr double kSeenAfterS = 0.25;    // delay of the eye
+  static constexpr double kCommandS = 0.02;      // interval between two commands of the hand
+  static constexpr double kSeenAfterS = 0.25;    // delay of the student's sight
   static constexpr double kDrawMPerS = 6e-3;     // speed of the hand on the sample
-  static constexpr double kWayMPerS = 60e-3;     // the same above it
-  static constexpr double kSteerPerS = 2.0;      // share of the seen error that the hand corrects
-  static constexpr std::size_t kSeenAfter = 13;  // commands of the hand in kSeenAfterS
+  static constexpr double kWayMPerS = 60e-3;     // speed of the hand above the sample
+  static constexpr double kSteerPerS = 2.0;      // fraction of the seen error that the hand corrects per second
+  static constexpr std::size_t kSeenAfter = 13;  // number of the hand's commands in kSeenAfterS
 
   SimulatedHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed);
 
-  // One more try, or a rest if there is nothing to do.
+  // Makes one more try, or rests if there is nothing to do.
   virtual void attempt(const LessonPrompt& prompt) = 0;
 
   bool goes_on() const;
-  LessonPrompt prompt() const;  // current one
+  LessonPrompt prompt() const;  // current prompt
   double noise() { return normal_(); }
-  void put_back();  // has the servo put everything back, then arms again
+  void put_back();  // makes the servo put everything back, then arms again
   void rest(double seconds);
-  void go(const glm::dvec2& to_m, double height_m, double m_per_s);  // in metres of the hand
+  void go(const glm::dvec2& to_m, double height_m, double m_per_s);  // target, height and speed in metres of the hand
   void step(const glm::dvec2& to_m, double height_m);
   void lift() { go(at_m_, high_m_, kWayMPerS); }
 
@@ -69,7 +69,7 @@ class SimulatedHand {
   const scene::TipPush& push() const { return push_; }                      // newest push
   double m_per_m() const { return m_per_m_; }                               // scale of the hand
   double high_m() const { return high_m_; }                                 // height above everything
-  const glm::dvec2& at_m() const { return at_m_; }                          // intended place of the hand
+  const glm::dvec2& at_m() const { return at_m_; }                          // intended position of the hand
   double height_m() const { return height_m_; }
 
  private:
@@ -91,10 +91,10 @@ class SimulatedHand {
   int ticks_ = 0;
   std::uint32_t selection_ = 0, script_ = 0, put_back_ = 0;
   std::uint64_t frame_ = 0;
-  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended place, and the error of the tremor
+  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended position, and the error due to tremor
   double height_m_ = 0;
-  LessonRun* run_ = nullptr;  // only during take_step()
-  LessonPrompt taken_;        // its step
+  LessonRun* run_ = nullptr;  // run of the current take_step(); null otherwise
+  LessonPrompt taken_;        // step of that run
   double now_s_ = 0;
 };
 

@@ -21,18 +21,18 @@ namespace afm::exhibit {
 namespace {
 
 constexpr int kMostPushSteps = 2000;
-// in radii of the particle
+// lengths in radii of the particle
 constexpr double kLow = 0.32;    // height of the tip while it pushes
-constexpr double kBehind = 2.0;  // from the middle of the particle to the tip that comes down behind it
-constexpr double kNear = 0.4;    // distance from a target that the student is content with
+constexpr double kBehind = 2.0;  // distance from the middle of the particle to the tip that comes down behind it
+constexpr double kNear = 0.4;    // distance from a target that satisfies the student
 constexpr double kAside = 0.3;   // offset that loses a particle
 constexpr double kLostWay = 8.0;
-// without the picture
+// values without the picture
 constexpr double kBlindMPerS = 4e-3;  // speed of the hand
-constexpr double kTurn = 2.0;         // slope of its way by the side from which it feels the particle
-constexpr int kLostAfter = 25;        // commands without a force
+constexpr double kTurn = 2.0;         // slope of its path as a function of the side on which it feels the particle
+constexpr int kLostAfter = 25;        // number of commands without a force
 constexpr double kForceNoise = 0.07;  // scatter of a remembered force, order of magnitude, estimated
-constexpr double kPressMPerS = 3e-3;  // speed of a hand that presses, far from the force that it remembers
+constexpr double kPressMPerS = 3e-3;  // speed of a pressing hand, far from the remembered force
 constexpr double kPressS = 6.0;
 
 double distance_to_segment(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
@@ -46,7 +46,7 @@ class PushingHand final : public SimulatedHand {
   PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed);
 
  private:
-  static constexpr double kBlindStepM = kBlindMPerS * kCommandS;  // way of the hand in a command
+  static constexpr double kBlindStepM = kBlindMPerS * kCommandS;  // path of the hand per command
 
   void attempt(const LessonPrompt& prompt) override;
   void bring(std::size_t particle, const glm::dvec2& to_m);
@@ -64,7 +64,7 @@ class PushingHand final : public SimulatedHand {
 
   std::vector<glm::dvec2> targets_m_;
   std::size_t task_ = 0;             // task of the newest attempt
-  std::optional<glm::dvec2> end_m_;  // place to which the particle of this task is to go
+  std::optional<glm::dvec2> end_m_;  // goal of this task's particle
 };
 
 PushingHand::PushingHand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo, std::uint64_t seed)
@@ -123,7 +123,7 @@ void PushingHand::steer(std::size_t particle, const glm::dvec2& to_m) {
     const glm::dvec2 left = glm::normalize(to_m - there_m), aside(-left.y, left.x);
     const glm::dvec2 tip_m = at_m() - m_per_m() * there_m;
     const double off_m = glm::dot(tip_m, aside);
-    if (std::abs(off_m) > m_per_m() * behind_m * 0.7 || glm::dot(tip_m, left) > 0.0) break;  // lost
+    if (std::abs(off_m) > m_per_m() * behind_m * 0.7 || glm::dot(tip_m, left) > 0.0) break;  // lost particle
     step(at_m() + kCommandS * (kDrawMPerS * left - kSteerPerS * off_m * aside), low_m());
     seen.push_back(place(particle));
     if (seen.size() > kSeenAfter) seen.pop_front();
@@ -150,7 +150,7 @@ void PushingHand::push_by_feel(std::size_t particle, const glm::dvec2& to_m) {
   go(m_per_m() * (from_m - kBehind * radius_m(particle) * along), high_m(), kWayMPerS);
   go(at_m(), low_m(), kWayMPerS);
   std::deque<double> felt;
-  int free = 0;  // commands since the tip has touched it
+  int free = 0;  // number of commands since the tip has touched it
   for (int i = 0; i < kMostPushSteps && free < kLostAfter && !prompt().far_enough; ++i) {
     const double side = felt.size() < kSeenAfter ? 0.0 : felt.front();
     step(at_m() + kBlindStepM * (along + kTurn * side * right), low_m());
@@ -176,7 +176,7 @@ void PushingHand::answer_by_feel(std::size_t particle) {
   if (goes_on()) put_back();
 }
 
-// Largest lateral force before the particle gave.
+// Feels the largest lateral force before the particle yields.
 std::optional<double> PushingHand::feel(std::size_t particle) {
   const glm::dvec2 from_m = place(particle), along = free_direction(particle, 2.0 * radius_m(particle));
   go(m_per_m() * (from_m - kBehind * radius_m(particle) * along), high_m(), kWayMPerS);
@@ -192,7 +192,7 @@ std::optional<double> PushingHand::feel(std::size_t particle) {
   return gave ? std::optional(most_n) : std::nullopt;
 }
 
-// Presses a particle until the force is the remembered one, and holds it.
+// Presses a particle until the force equals the remembered one, and holds it.
 void PushingHand::press(std::size_t particle, double force_n) {
   const glm::dvec2 to_m = place(particle), along = glm::normalize(to_m);
   go(m_per_m() * (to_m - kBehind * radius_m(particle) * along), high_m(), kWayMPerS);
@@ -208,7 +208,7 @@ void PushingHand::press(std::size_t particle, double force_n) {
   lift();
 }
 
-// The direction, of sixteen, with the most room for the particle; among equals, the one that stays nearest to the
+// The one of sixteen directions with the most room for the particle; among equals, the one that stays nearest to the
 // middle.
 glm::dvec2 PushingHand::free_direction(std::size_t particle, double way_m) const {
   const double r_m = radius_m(particle);

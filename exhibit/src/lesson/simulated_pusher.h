@@ -8,7 +8,7 @@
 
 namespace afm::exhibit {
 
-// A hand that pushes particles, and steers towards the line from particle to target. As SimulatedHand::create.
+// A hand that pushes particles and steers along the line from particle to target. As SimulatedHand::create.
 std::unique_ptr<SimulatedHand> make_pushing_hand(const scene::ParticleSet& set, std::unique_ptr<SimulatedServo>&& servo,
                                                  std::uint64_t seed);
 

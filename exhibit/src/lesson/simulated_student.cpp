@@ -44,7 +44,7 @@ constexpr std::array kAbilities{AbilityRow{"d-prime", &Abilities::d_prime, 0, 10
                                 AbilityRow{"weber", &Abilities::weber_fraction, 0.001, 10},
                                 AbilityRow{"bias", &Abilities::bias, -10, 10}};
 
-// A jump of the law's branches, as the servo reports it under a lever that taps.
+// Jump of the law's branches, in the form that the servo reports for a tapping lever.
 physics::EventKind kind_of_jump(physics::EventKind kind, bool taps) {
   if (!taps) return kind;
   return physics::begins_cycle(kind) ? physics::EventKind::JumpToRepulsion : physics::EventKind::JumpToAttraction;
@@ -122,7 +122,7 @@ core::Result<void> SimulatedStudent::take(LessonRun& run) {
       case LessonPrompt::Wants::Nothing:
         return {};
       case LessonPrompt::Wants::GoOn:
-        now_s_ += 5.0 + 10.0 * random_.unit();  // reading time
+        now_s_ += 5.0 + 10.0 * random_.unit();  // time for reading
         run.go_on(now_s_);
         break;
       case LessonPrompt::Wants::Cycle:
@@ -152,7 +152,7 @@ core::Result<void> SimulatedStudent::take_step(LessonRun& run) {
   return hand_->take_step(run, now_s_);
 }
 
-// Feels one cycle with the servo's model, tick by tick; under a lever that taps, with its push at rest.
+// Feels one cycle with the servo's model, tick by tick; in tapping mode, with its push at rest.
 core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& prompt) {
   const std::size_t material = prompt.material.value_or(random_.below(samples_.size()));
   std::shared_ptr<const physics::LawTables> tables = samples_[material].tables;
@@ -167,7 +167,7 @@ core::Result<void> SimulatedStudent::feel(LessonRun& run, const LessonPrompt& pr
                            ? haptics::Scaling::compressed(std::array{tables}, device)
                            : haptics::Scaling::fit(*tables, device);
   if (!scaling) return tl::unexpected(scaling.error());
-  now_s_ += 2.0 + 2.0 * random_.unit();  // lifts and enables the force
+  now_s_ += 2.0 + 2.0 * random_.unit();  // time for lifting and for enabling the force
   run.force_is(prompt.condition == Condition::Picture ? HandForce::None : HandForce::Full, now_s_);
   const double high_m = scaling->release_height_m() + kLiftM;
   const double low_m = scaling->hand_height_m(0.0) - kPushM;
@@ -217,7 +217,7 @@ std::size_t SimulatedStudent::choose(const LessonPrompt& prompt) {
 }
 
 std::size_t SimulatedStudent::rate(const LessonPrompt& prompt) {
-  if (prompt.item.empty()) return 0;  // takes part, and continues after a break
+  if (prompt.item.empty()) return 0;  // consent, or continuation after a break
   if (prompt.item.starts_with("ssq-")) {
     // at most two slight symptoms, far below the rule that stops a lesson
     const bool may = prompt.item == "ssq-2" || prompt.item == "ssq-4";

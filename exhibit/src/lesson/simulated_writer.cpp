@@ -19,8 +19,8 @@ namespace afm::exhibit {
 namespace {
 
 constexpr int kMostDrawSteps = 5000;  // limit for one part of a line
-constexpr double kPressPerS = 2.0;    // share of the felt error of the load that the hand corrects
-constexpr double kFastestM = 2e-4;    // change of the height between two commands, at most
+constexpr double kPressPerS = 2.0;    // fraction of the felt error of the load that the hand corrects per second
+constexpr double kFastestM = 2e-4;    // largest change of the height between two commands
 constexpr double kTouchMPerS = 6e-3;  // speed of the hand while it comes down on the sample
 
 class WritingHand final : public SimulatedHand {
@@ -34,12 +34,12 @@ class WritingHand final : public SimulatedHand {
   void draw_to(const glm::dvec2& from_m, const glm::dvec2& to_m);
   glm::dvec2 tip_m() const;
 
-  double load_n_ = 0;  // to be pressed with
+  double load_n_ = 0;  // load with which to press
   std::size_t begun_ = 0;
   bool tried_ = false;
 };
 
-// All lines; if that was not well enough, all of them again on the level sample.
+// Writes all lines; if that was not good enough, all of them again on the level sample.
 void WritingHand::attempt(const LessonPrompt& prompt) {
   if (std::exchange(begun_, prompt.task + 1) == prompt.task + 1 && tried_) put_back();
   tried_ = true;

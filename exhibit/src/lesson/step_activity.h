@@ -21,15 +21,15 @@
 
 namespace afm::exhibit {
 
-// Inputs of a step. All must outlive the step.
+// Inputs of a step. All referenced objects must outlive the step.
 struct StepContext {
   const LessonStep& step;
   const scene::ParticleSet* particles;           // particles of the lesson; null: none
   std::span<const curves::SampleModel> samples;  // samples of the lesson
   const Phrases& phrases;
   LessonRandom& random;
-  std::function<void(TrialRow)> keep;       // receives a finished trial; step, kind and condition are filled in
-  std::function<void(core::Error)> failed;  // receives an error that ends the lesson
+  std::function<void(TrialRow)> keep;       // receiver of a finished trial; step, kind and condition are filled in
+  std::function<void(core::Error)> failed;  // receiver of an error that ends the lesson
 
   std::string words() const { return step.words.in(phrases[Phrase::Language]); }
 };
@@ -44,20 +44,20 @@ class StepActivity {
   virtual void answer(std::size_t, double) {}
   virtual void felt(const FeltCycle&, double) {}
 
-  // For a push or writing, and for samples the state of a swing: events and samples of the servo in order, the events
+  // Input for a push, for writing, and for the state of a swing: events and samples of the servo in order, the events
   // of a tick before its sample; then pages, or tiles.
   virtual void add(const scene::TipEvent&) {}
   virtual void add(const scene::TipSample&) {}
   virtual void look(std::span<const scene::ParticlePage>, double) {}
   virtual void look_at_marks(std::span<const scene::MarkTile>, double) {}
-  virtual bool counts(const scene::TipSample&) const { return false; }  // its touch belongs to the trial
+  virtual bool counts(const scene::TipSample&) const { return false; }  // true: touch that belongs to the trial
   virtual bool waits_for_state() const { return false; }                // needs samples with the condition's force
 
-  virtual TrialRow trial(double) const { return {}; }  // the running trial, without its answer
+  virtual TrialRow trial(double) const { return {}; }  // running trial without its answer
   virtual void reset(double now_s) = 0;                // restarts the running trial
   virtual bool done() const = 0;
-  virtual bool may_pause() const { return true; }   // an interruption would lose nothing of a trial
-  virtual bool says_stop() const { return false; }  // the participant should end here
+  virtual bool may_pause() const { return true; }   // true: an interruption would lose nothing of a trial
+  virtual bool says_stop() const { return false; }  // true: advice for the participant to end here
 };
 
 std::unique_ptr<StepActivity> make_text_activity(const StepContext& context, double now_s);
@@ -69,7 +69,7 @@ std::unique_ptr<StepActivity> make_question_activity(const StepContext& context,
 std::unique_ptr<StepActivity> make_push_activity(const StepContext& context, double now_s);
 std::unique_ptr<StepActivity> make_write_activity(const StepContext& context, double now_s);
 
-// Time and figures of a task that is done.
+// Adds time and figures of a finished task.
 void add_score(const scene::TaskScore& score, TrialRow& row);
 
 // Counts practice trials, then counted ones, both from 1.
@@ -83,7 +83,7 @@ class TrialCount {
   bool done() const { return done_ >= practice_ + counted_; }
   void next() { ++done_; }
 
-  // "Trial 3 of 12"
+  // Progress such as "Trial 3 of 12".
   std::string text(const Phrases& phrases) const;
 
  private:

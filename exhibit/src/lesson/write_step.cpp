@@ -15,7 +15,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Reason why the lines are not done, with what to do.
+// Reason why the lines are not done, with a remedy.
 std::string words_of(WritingFault fault, const WrittenLines& written, const LinesToWrite& lines,
                      const Phrases& phrases) {
   const std::string width = length_words(written.width_m), wanted = length_words(lines.width_m);
@@ -32,7 +32,7 @@ std::string words_of(WritingFault fault, const WrittenLines& written, const Line
   return phrases.text<Phrase::LessonLinesLeft>(fmt::format("{:.0f} %", std::floor(100.0 * written.share)));
 }
 
-// One trial: waits until the sample is level and the tip is off it, then until the lines are written.
+// Step with one trial: waits until the sample is level and the tip is off it, then until the lines are written.
 class WriteActivity final : public StepActivity {
  public:
   WriteActivity(StepContext context, double now_s) : context_(std::move(context)), began_s_(now_s) {}

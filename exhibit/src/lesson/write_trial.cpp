@@ -15,7 +15,7 @@ void WriteTrial::add(const scene::TipEvent& event) {
   if (!back) return;
   ++changes_;
   fault_.reset();
-  task_.add(EventKind::PushTakenBack);  // the trial goes on, with its clock
+  task_.add(EventKind::PushTakenBack);  // trial continued, with its clock
 }
 
 // Tiles are published after the stroke that has changed them, so a stroke is a change while the tip is on the sample.
@@ -39,7 +39,7 @@ bool WriteTrial::look(std::span<const scene::MarkTile> tiles) {
   written_ = written_lines(tiles, tip_radius_m_, lines_);
   const auto fault = fault_of(written_, lines_);
   if (fault) {
-    task_.judge({});  // waits for another stroke
+    task_.judge({});  // wait for another stroke
     const bool bare = fault == WritingFault::LinesLeft && written_.share == 0.0;
     fault_ = bare ? std::nullopt : fault;
     return false;

@@ -13,9 +13,9 @@
 
 namespace afm::exhibit {
 
-// Lines that a step of a lesson has a person write into a soft sample, judged once the tip has been lifted for
-// scene::PatternTask::kRestNs, and scored as a push is. A stroke that is taken back, and a sample that is made level,
-// count as taken back. The sample is level when the trial begins. One thread.
+// Lines that a step makes a person write into a soft sample, judged once the tip has been lifted for
+// scene::PatternTask::kRestNs, and scored like a push. Undoing a stroke, or levelling the sample,
+// counts as taken back. The sample is level when the trial begins. One thread.
 class WriteTrial {
  public:
   // `set` has a soft sample; both must outlive the object.
@@ -29,9 +29,9 @@ class WriteTrial {
   bool look(std::span<const scene::MarkTile> tiles);
 
   const scene::TaskScore& score() const { return task_.score(); }
-  const WrittenLines& written() const { return written_; }  // as judged last
+  const WrittenLines& written() const { return written_; }  // result of the latest judgement
 
-  // Fault for which the lines were not done when they were judged last; nothing before.
+  // Fault found in the latest judgement, which keeps the lines from being done; empty before.
   std::optional<WritingFault> fault() const { return fault_; }
 
  private:
@@ -39,8 +39,8 @@ class WriteTrial {
   const LinesToWrite& lines_;
   scene::PatternTask task_;
   std::uint64_t digest_ = scene::kSoftDigest;  // digest of the newest sample
-  std::uint64_t changes_ = 0;                  // by strokes, and by what was taken back
-  bool was_on_ = false;                        // the tip was on the sample in the newest tick
+  std::uint64_t changes_ = 0;                  // number of changes by strokes and by undoing
+  bool was_on_ = false;                        // true: tip on the sample in the newest tick
   WrittenLines written_;
   std::optional<WritingFault> fault_;
 };

@@ -19,11 +19,11 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kMarkM = 1e-10;     // least depth
-constexpr double kFromEnds = 1.0;    // widths from a measured place to the ends of its part
-constexpr double kFromOthers = 2.0;  // the same to another part
-constexpr double kWithin = 0.5;      // widths from a place of a line to a mark, at most
-constexpr double kFollowed = 2.0;    // widths to which a groove is followed on either side
+constexpr double kMarkM = 1e-10;     // smallest depth of a mark
+constexpr double kFromEnds = 1.0;    // distance from a measured place to the ends of its part, in widths
+constexpr double kFromOthers = 2.0;  // distance to another part, in widths
+constexpr double kWithin = 0.5;      // largest distance from a place of a line to a mark, in widths
+constexpr double kFollowed = 2.0;    // distance to which a groove is followed on either side, in widths
 
 struct LinePart {
   std::size_t line;
@@ -50,7 +50,7 @@ double distance_m(const dvec2& place_m, const std::vector<LinePart>& parts) {
   return least_m;
 }
 
-// A place on a line, and whether its groove can be measured.
+// Place on a line, with a flag for a measurable groove.
 struct LinePlace {
   std::size_t line;
   dvec2 place_m, across;
@@ -77,7 +77,7 @@ std::vector<LinePlace> line_places(const LinesToWrite& lines, double spacing_m) 
   return places;
 }
 
-// MarkHeights of a sample without load, on its squares and between their middles.
+// Heights of the marks without load, on the squares of a sample and between their middles.
 class MarkHeights {
  public:
   MarkHeights(std::span<const scene::MarkTile> tiles, double tip_radius_m)
@@ -122,12 +122,12 @@ class MarkHeights {
   double spacing_m_, first_m_;
 };
 
-// A groove across a line: its middle from there, and its width.
+// Groove across a line: the offset of its middle, and its width.
 struct Groove {
   double middle_m, width_m;
 };
 
-// The groove whose middle is nearest to the place, within a width of it; nothing if there is none.
+// Groove whose middle is nearest to the place, within a width of it; empty if there is none.
 std::optional<Groove> groove_at(const MarkHeights& heights, const LinePlace& place, double width_m) {
   const double step_m = 0.5 * heights.spacing_m();
   const int most = static_cast<int>(std::ceil(kFollowed * width_m / step_m));
@@ -136,7 +136,7 @@ std::optional<Groove> groove_at(const MarkHeights& heights, const LinePlace& pla
   bool inside = false;
   const auto height_m = [&](int i) { return heights.at(place.place_m + step_m * i * place.across); };
   for (int i = -most; i <= most + 1; ++i) {
-    const double now_m = i <= most ? height_m(i) : 0.0;  // it ends there, at the latest
+    const double now_m = i <= most ? height_m(i) : 0.0;  // end of the groove, at the latest
     const double zero_m = step_m * (i - (now_m == before_m ? 0.0 : now_m / (now_m - before_m)));
     if (!inside) lowest_m = 0.0;
     lowest_m = std::min(lowest_m, now_m);

@@ -42,7 +42,7 @@ HeightRelief marks_relief(std::span<const scene::MarkTile> tiles, const MarksSca
   AFM_CHECK(tiles.size() == scene::kMarkTiles);
   std::vector<double> heights_m;
   heights_m.reserve(kReliefSide * kReliefSide);
-  for (std::size_t row = kReliefSide; row-- > 0;) {  // from +y
+  for (std::size_t row = kReliefSide; row-- > 0;) {  // rows from +y
     for (std::size_t column = 0; column < kReliefSide; ++column) {
       double sum_m = 0.0;
       for (std::size_t i = 0; i < kSquaresOfVertex * kSquaresOfVertex; ++i) {

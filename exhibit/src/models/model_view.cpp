@@ -23,7 +23,7 @@ using glm::dvec3;
 
 constexpr double kWallHeightM = 2.286;  // the paper's wall
 constexpr double kAutoFieldOfViewRad = 0.7;
-constexpr double kAutoAzimuthRad = 0.35;  // from the front, slightly from the right and above
+constexpr double kAutoAzimuthRad = 0.35;  // direction from the front, slightly from the right and above
 constexpr double kAutoElevationRad = 0.22;
 
 struct Sphere {
@@ -31,7 +31,7 @@ struct Sphere {
   double radius = 1.0;
 };
 
-// 1 for each node to draw, 0 for unit shapes that only the wall gives a length (beams, rays, lines), unless the model
+// A flag per node: 1 to draw it, 0 for unit shapes that only the wall gives a length (beams, rays), unless the model
 // has nothing else.
 std::vector<std::uint8_t> drawn_nodes(const scene::Scene& scene) {
   std::vector<std::uint8_t> drawn;
@@ -115,7 +115,7 @@ core::Result<Look> chosen_look(const scene::Scene& scene, const std::vector<dmat
                                    choice.camera, names.empty() ? "none" : names));
 }
 
-// The wall shows the frustum's cross-section at the focus. The room's origin is the middle of the wall.
+// Size of the wall, which shows the frustum's cross-section at the focus. The room's origin is the middle of the wall.
 double metres_of_wall(const Look& look) {
   const double height_m = look.camera.perspective
                               ? 2.0 * look.focus_m * std::tan(0.5 * static_cast<double>(look.camera.yfov_rad))
@@ -143,7 +143,7 @@ core::Result<void> set_perspective_eyes(const Look& look, double scale, const Mo
   return {};
 }
 
-// Parallel projection: both eyes see the same. The camera is the depth `far` in front of its objects.
+// Sets a parallel projection: both eyes see the same. The camera is at the depth `far` in front of its objects.
 void set_parallel_eyes(const Look& look, double scale, double aspect, render::FrameState& frame) {
   const double distance_m = look.focus_m * scale;
   const double near_m = static_cast<double>(look.camera.near_m) * scale;

@@ -21,18 +21,18 @@ namespace {
 constexpr int kSphereRings = 14, kSphereSectors = 28;
 constexpr int kRingSectors = 48, kRingSides = 8;
 constexpr int kTipSectors = 40, kTipCapRings = 8, kTipFlankRings = 4;
-constexpr double kRingRadius = 1.3, kRingThickness = 0.09;  // in radii of the particle
+constexpr double kRingRadius = 1.3, kRingThickness = 0.09;  // size in radii of the particle
 constexpr double kFootprintRadius = 0.7, kFootprintThickness = 0.05, kDotRadius = 0.13;
 constexpr double kCrossReach = 0.6, kCrossHalfWidth = 0.06, kCrossHeight = 0.03;
 constexpr int kDotRings = 6, kDotSectors = 10;
 constexpr int kRodSectors = 20, kRodEndRings = 6, kRodSideRings = 10;
 constexpr int kIslandSectors = 48, kIslandRimRings = 8, kIslandFlatRings = 2;
-constexpr double kIslandMark = 0.045;  // half width of the mark, share of a turn
-constexpr double kPadHeight = 0.08;    // in radii of the particle
+constexpr double kIslandMark = 0.045;  // half width of the mark, as a fraction of a turn
+constexpr double kPadHeight = 0.08;    // height in radii of the particle
 constexpr double kBandWidth = 0.42;    // half width of the dark band, sine of the latitude
 constexpr double kCapLatitude = 0.86;  // sine of the latitude of the cap's edge
 constexpr Srgb kPlain{255, 255, 255}, kBand{92, 62, 40}, kCap{150, 205, 235};
-// Share of the side, as that of the assets' samples: a thinner one would lift the table before the panels.
+// Thickness relative to the side, as for the assets' samples: a thinner one would lift the table before the panels.
 constexpr double kGroundThickness = 0.18;
 
 // A grid of vertices on a closed surface: rows from one end to the other, columns around. `at` returns place and
@@ -79,7 +79,7 @@ glm::vec4 color_at(double sine_of_latitude) {
   return linear_colour(std::abs(sine_of_latitude) < 0.5 * kBandWidth ? kBand : kPlain);
 }
 
-// `color` is that of a sine of the latitude.
+// Ball whose vertices have the colour `color` of the sine of their latitude.
 scene::Primitive ball(int rows, int columns, double radius, glm::vec4 (*color)(double)) {
   return rolled(rows, columns, [&](double row, double column) {
     const double latitude = std::numbers::pi * (row - 0.5);
@@ -97,7 +97,7 @@ scene::Primitive ring(double radius, double thickness, double z) {
   });
 }
 
-// Cuboid without its lower face.
+// Cuboid without a lower face.
 scene::Primitive slab(const glm::dvec3& size, const glm::dvec3& middle) {
   scene::Primitive slab;
   const auto face = [&](const glm::dvec3& normal, const glm::dvec3& right, const glm::dvec3& up) {
@@ -195,7 +195,7 @@ scene::Scene particle_ring() {
                   ring(kRingRadius, kRingThickness, kRingThickness));
 }
 
-// Half of it lies in the sample.
+// Ring, half of which lies in the sample.
 scene::Scene particle_footprint() {
   return one_mesh("footprint", mark_on_sample(), ring(kFootprintRadius, kFootprintThickness, 0.0));
 }
@@ -209,7 +209,7 @@ scene::Scene particle_tip(double half_angle_rad, double height) {
   // the ball passes into the cone where its normal points down by the half angle
   const double sine = std::sin(half_angle_rad), cosine = std::cos(half_angle_rad);
   const double joint_z = 1.0 - sine, joint_radius = cosine;
-  const int flank_end = kTipCapRings + kTipFlankRings, rows = flank_end + 2;  // the last two close the top
+  const int flank_end = kTipCapRings + kTipFlankRings, rows = flank_end + 2;  // rows; the last two close the top
   const double flank = std::max(height - joint_z, 0.0);
   scene::Primitive tip = rolled(rows, kTipSectors, [&](double row, double column) {
     const double at = row * rows;

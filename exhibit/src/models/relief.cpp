@@ -15,7 +15,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kSunkOfSide = 0.25;  // depth of the floor below the lowest colour: inside any sample's slab
+constexpr double kSunkOfSide = 0.25;  // depth of the floor below the lowest colour, inside any sample's slab
 constexpr int kColours = 256;
 
 double middle_of(std::size_t cell) { return (static_cast<double>(cell) + 0.5) / kReliefSide - 0.5; }
@@ -37,7 +37,7 @@ scene::Scene relief_mesh() {
           {{static_cast<float>(middle_of(column)), static_cast<float>(-middle_of(row)), 0.0F}, {0.0F, 0.0F, 1.0F}});
     }
   }
-  grid.vertices.back().position.z = 1.0F;  // the box of all shapes
+  grid.vertices.back().position.z = 1.0F;  // height of the box of all shapes
   constexpr auto kSide = static_cast<std::uint32_t>(kReliefSide);
   for (std::uint32_t row = 0; row + 1 < kSide; ++row) {
     for (std::uint32_t column = 0; column + 1 < kSide; ++column) {
@@ -64,7 +64,7 @@ HeightRelief relief_of(std::span<const double> height_m, double side_m, const Re
   };
   const auto at = [&](std::size_t column, std::size_t row) -> std::optional<double> {
     if (column >= kReliefSide || row >= kReliefSide)
-      return std::nullopt;  // includes points beyond the lower rims, by wrapping
+      return std::nullopt;  // no place; includes points beyond the lower rims, by wrapping
     const double measured_m = height_m[row * kReliefSide + column];
     return std::isfinite(measured_m) ? std::optional(unit(measured_m)) : std::nullopt;
   };

@@ -15,7 +15,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Column-major, like glm's.
+// Matrix in column-major order, like glm's.
 std::array<double, 16> shared_matrix(const glm::dmat4& matrix) {
   std::array<double, 16> shared;
   std::copy_n(glm::value_ptr(matrix), shared.size(), shared.begin());

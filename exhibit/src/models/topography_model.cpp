@@ -28,10 +28,10 @@ namespace {
 // Side of a sample in units of the material's stroke, as in the assets, and the relief that is easy to feel.
 constexpr double kSideOfStroke = 1.65;
 constexpr double kLeastRelief = 0.05, kMostRelief = 0.25;
-constexpr double kSlabOfSide = 0.12;  // thickness below the lowest place, as a share of the side
-constexpr double kOutlineOfSide = 0.0028, kCornerWidths = 2.5;  // as the outlines of the assets' samples
-constexpr double kOutlierShare = 0.002;                         // share of the points at either end of the colour scale
-constexpr double kFlat_m = 1e-15;                               // flat below this relief
+constexpr double kSlabOfSide = 0.12;  // thickness below the lowest place, relative to the side
+constexpr double kOutlineOfSide = 0.0028, kCornerWidths = 2.5;  // same outlines as those of the assets' samples
+constexpr double kOutlierShare = 0.002;                         // fraction of points beyond either end of the scale
+constexpr double kFlat_m = 1e-15;                               // relief below which a sample is flat
 
 constexpr glm::vec4 kWallColour(0.055F, 0.05F, 0.06F, 1.0F);
 constexpr glm::vec4 kOutlineColour(0.004F, 0.004F, 0.005F, 1.0F);
@@ -108,7 +108,7 @@ void for_each_face(const Grid& grid, const Face& face) {
   face(rows, glm::vec3(-1, 0, 0), [&](std::size_t i) { return grid.place(0, rows - 1 - i); });
 }
 
-// Four faces below the rim.
+// The four faces below the rim.
 scene::Primitive walls_of(const Grid& grid, double bottom_m) {
   scene::Primitive walls;
   walls.material = 1;
@@ -127,7 +127,7 @@ scene::Primitive walls_of(const Grid& grid, double bottom_m) {
   return walls;
 }
 
-// Strips along the rim and down its corners, `width_m` off the faces, seen from inside only: from above, a dark line
+// Strips along the rim and down its corners, `width_m` off the faces, seen only from inside: from above, a dark line
 // around the sample. `rise_m` is the height over the rim.
 scene::Primitive outline_of(const Grid& grid, double bottom_m, double width_m, double rise_m) {
   scene::Primitive outline;
@@ -164,7 +164,7 @@ double longest_side_m(const scene::Topography& topography) {
   return topography.spacing_m * (std::max(topography.columns, topography.rows) - 1);
 }
 
-// Range without outliers.
+// Range of the heights without outliers.
 std::pair<double, double> range_of(const scene::Topography& topography) {
   std::vector<float> heights = topography.height_m;
   const auto at = [&](double share) {

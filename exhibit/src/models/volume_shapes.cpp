@@ -15,7 +15,7 @@ namespace {
 constexpr Srgb kPullColour{43, 131, 203}, kNoForceColour{176, 182, 188}, kPushColour{224, 112, 20};
 constexpr std::size_t kBarSteps = 64;
 
-// A grid of so many vertices, row by row, seen from both sides.
+// A grid of columns x rows vertices, row by row, seen from both sides.
 scene::Primitive two_sided_grid(std::size_t columns, std::size_t rows) {
   scene::Primitive grid;
   grid.vertices.resize(columns * rows);
@@ -94,7 +94,7 @@ scene::Scene equal_force_mesh() {
                                                              static_cast<float>(row) / (kSurfaceSide - 1) - 0.5F, 0.0F};
     }
   }
-  grid.vertices.back().position.z = 1.0F;  // the box of all shapes
+  grid.vertices.back().position.z = 1.0F;  // height of the box of all shapes
   return reshaped_part(
       "surface", std::move(grid),
       {.name = "equal force", .metallic = 0.0F, .roughness = 0.5F, .double_sided = true, .blended = true});

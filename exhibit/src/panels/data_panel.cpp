@@ -93,9 +93,9 @@ void add_contact_rows(const curves::SampleModel& material, const Phrases& phrase
   }
 }
 
-// An attraction bends the lever down, towards the sample: the deflection is then positive.
+// Text for the deflection. An attraction bends the lever down, towards the sample: the deflection is then positive.
 std::string bend_text(double deflection_m, const Phrases& phrases) {
-  constexpr double kUnseenM = 0.005e-9;  // is written as 0.00 nm
+  constexpr double kUnseenM = 0.005e-9;  // deflection written as 0.00 nm
   if (std::abs(deflection_m) < kUnseenM) return phrases[Phrase::LeverStraight];
   const std::string amount = fmt::format("{:.2f} nm", std::abs(deflection_m) * curves::kNmPerM);
   return deflection_m < 0 ? phrases.text<Phrase::LeverBentUp>(amount) : phrases.text<Phrase::LeverBentDown>(amount);

@@ -21,9 +21,9 @@ namespace {
 using physics::Length;
 using physics::Velocity;
 
-constexpr double kRestsMPerS = 1e-9;  // a slower tip makes a dot
+constexpr double kRestsMPerS = 1e-9;  // speed below which the tip makes a dot
 constexpr double kSquareNm = 1e-18, kSquareUm = 1e-12;
-constexpr double kLeastSquareUm = 0.1;  // a smaller area is given in square nanometres
+constexpr double kLeastSquareUm = 0.1;  // area below which the unit is square nanometres
 
 class InkRows : private SourcedRows {
  public:

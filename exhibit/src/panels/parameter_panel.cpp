@@ -54,7 +54,7 @@ std::vector<std::string> notes(const curves::LiveParameters& parameters, const P
   return lines;
 }
 
-// In the order of LiveParameters::Row, and of ChangeState.
+// Names in the order of LiveParameters::Row, and of ChangeState.
 constexpr std::array<Phrase, curves::LiveParameters::kRows> kNames{
     Phrase::TipRadius,      Phrase::SpringConstant, Phrase::HamakerConstant, Phrase::WorkOfAdhesion,
     Phrase::ReducedModulus, Phrase::ForceLaw,       Phrase::PixelColumn,     Phrase::PixelRow};
@@ -126,7 +126,7 @@ void add_forecast(const curves::LiveParameters& parameters, const Phrases& phras
 
 void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel) {
   add_forecast(parameters, phrases, panel);
-  if (parameters.model().taps()) return;  // the axes are those of the swing
+  if (parameters.model().taps()) return;  // axes of a swing, without a forecast
   const physics::CycleFigures& figures = parameters.model().figures();
   const double reach_nm = curves::cycle_reach_m(parameters.model()) * curves::kNmPerM;
   const double deepest_nn = std::abs(parameters.curve().samples.back().force.si) * curves::kNnPerN;

@@ -38,7 +38,7 @@ using physics::ParticleLaw;
 using physics::ParticleSpecies;
 using physics::PushState;
 
-constexpr double kSoftened = 1.05;  // beyond this the panel says that the lever is felt softer
+constexpr double kSoftened = 1.05;  // factor beyond which the panel reports the softer lever
 constexpr double kFinestAimM = 1e-12;
 
 static_assert(after(Phrase::PushFree, core::index_of(PushState::Carried)) == Phrase::PushCarried);
@@ -49,12 +49,12 @@ const std::string& formula_of(ParticleLaw law, const Phrases& phrases) {
   return phrases[after(Phrase::PushLawArea, core::index_of(law))];
 }
 
-// In nN, whatever the size: forces next to each other are compared.
+// Force in nN, whatever its size, since forces next to each other are compared.
 std::string force_text(Force force, const Phrases& phrases) {
   return phrases.number(fmt::format("{:.{}g} nN", force.si * curves::kNnPerN, kDigits));
 }
 
-// With the exponent of a square raised.
+// Value with the exponent of a square unit raised.
 template <class Quantity, class Units>
 std::string quantity_text(Quantity value, const Units& units, const Phrases& phrases) {
   std::string text = phrases.number(format_quantity(value, units, kDigits));
@@ -195,7 +195,7 @@ class ParticleRows {
             ? "< " + quantity_text(physics::Length(kFinestAimM), physics::kLengthUnits, phrases_)
             : quantity_text(figures->aim, physics::kLengthUnits, phrases_),
         phrases_[Phrase::PlanAimWhy]);
-    if (!(figures->hand.si > 0.0)) return;  // before the servo has said how large the particles are in the hand
+    if (!(figures->hand.si > 0.0)) return;  // scale of the hand not yet reported by the servo
     add(Phrase::PlanHand, quantity_text(figures->hand, physics::kVelocityUnits, phrases_),
         phrases_.text<Phrase::PlanHandWhy>(fmt::format("{:g} s", physics::kSteeringDelay.si)));
   }
@@ -244,10 +244,10 @@ class ParticleRows {
         known ? Force(now_.push.threshold_n) : physics::sliding_threshold(kind, kind.law, Force(0.0));
     add(Phrase::PushThreshold, force_text(threshold, phrases_),
         phrases_.text<Phrase::PushLaw>(formula_of(kind.law, phrases_)));
-    if (physics::turns_flat(kind)) return;  // measured alone
+    if (physics::turns_flat(kind)) return;  // species with only a measured threshold
     const ParticleLaw other = scene::other_law(kind.law);
     const Force other_threshold = physics::sliding_threshold(kind, other, Force(0.0));
-    if (!(other_threshold.si > 0.0)) return;  // file without the parameters
+    if (!(other_threshold.si > 0.0)) return;  // file without the numbers of the other law
     add_sourced(Phrase::PushOtherLaw, "(" + force_text(other_threshold, phrases_) + ")",
                 phrases_.text<Phrase::PushLawUnused>(formula_of(other, phrases_)));
   }

@@ -18,7 +18,7 @@ namespace {
 static_assert(after(Phrase::SettingLaw, core::index_of(PushSetting::Medium)) == Phrase::SettingMedium);
 static_assert(after(Phrase::ToolPush, 1) == Phrase::ToolGrip);
 
-// Law of the spheres of a set; that of the first species without any.
+// Law of the spheres of a set; without spheres, that of the first species.
 physics::ParticleLaw own_law(const physics::PushSetup& setup) {
   const auto sphere =
       std::find_if_not(setup.species.begin(), setup.species.end(),

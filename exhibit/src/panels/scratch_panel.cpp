@@ -29,8 +29,8 @@ using physics::PushState;
 
 static_assert(after(Phrase::SoftFree, core::index_of(PushState::Slides)) == Phrase::SoftMarks);
 
-constexpr double kRaisedM = 1e-10;       // beyond this the panel says that the hand is too fast
-constexpr double kAroundCurve = 1.1;     // axes by what they show
+constexpr double kRaisedM = 1e-10;       // height beyond which the panel reports that the hand is too fast
+constexpr double kAroundCurve = 1.1;     // axes relative to the shown range
 constexpr double kLeastPlottedNn = 1.0;  // push at the top of the axis before the first scratch
 
 class ScratchRows : private SourcedRows {
@@ -72,7 +72,7 @@ class ScratchRows : private SourcedRows {
 
   void add_speed() {
     const scene::TipPush& push = now_.push;
-    if (!(push.fastest_hand_m_per_s > 0.0)) return;  // before the servo has reported it
+    if (!(push.fastest_hand_m_per_s > 0.0)) return;  // limit not yet reported by the servo
     add(Phrase::SoftSpeed, text(physics::Velocity(push.fastest_hand_m_per_s), physics::kVelocityUnits),
         push.rise_m > kRaisedM ? phrases_.text<Phrase::SoftFast>(text(Length(push.rise_m), physics::kLengthUnits))
                                : phrases_[Phrase::SoftSlow]);

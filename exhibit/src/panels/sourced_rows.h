@@ -24,13 +24,13 @@ class SourcedRows {
   SourcedRows(const ParticlesNow& now, const Phrases& phrases) : now_(now), phrases_(phrases) {}
 
  protected:
-  static constexpr double kFeltSofter = 1.05;  // beyond this the panel says that the lever is felt softer
+  static constexpr double kFeltSofter = 1.05;  // factor beyond which the panel reports the softer lever
 
   void add(Phrase name, std::string value, std::string source) {
     rows_.push_back({phrases_[name], std::move(value), std::move(source)});
   }
 
-  // A row of the set's own numbers, which is seen with the sources.
+  // Adds a row with one of the set's own numbers, shown only together with the sources.
   void add_sourced(Phrase name, std::string value, std::string_view key) {
     add(name, std::move(value), source(key));
     rows_.back().detail = true;

@@ -21,17 +21,17 @@ namespace {
 
 constexpr glm::vec3 kAttractiveColor{0.337F, 0.706F, 0.914F}, kRepulsiveColor{0.902F, 0.624F, 0.0F},
     kNowColor{0.00F, 0.78F, 0.56F}, kEdgeColor{0.80F, 0.47F, 0.65F}, kCircleColor{0.6F, 0.6F, 0.6F};
-constexpr double kMargin = 0.08;  // share of the circle beside it
+constexpr double kMargin = 0.08;  // fraction of the circle beside it
 constexpr int kPointsOfCircle = 90;
 constexpr double kWidest = 2.0;             // shown diameter of the circle, in free amplitudes
-constexpr double kHeightsOfSwing = 2000.0;  // heights with a portrait of their own, on a free amplitude
+constexpr double kHeightsOfSwing = 2000.0;  // number of heights with separate portraits, per free amplitude
 
 render::PlotPoint end_of(double amplitude_m, double phase_rad) {
   return {.place_nm = amplitude_m * std::cos(phase_rad) * curves::kNmPerM,
           .force_nn = amplitude_m * std::sin(phase_rad) * curves::kNmPerM};
 }
 
-// From the origin to a point, or as far as the axes reach.
+// Adds a hand from the origin to a point, or as far as the axes reach.
 void add_hand(const std::string& label, const glm::vec3& color, const render::PlotPoint& end,
               render::ForcePanel& panel) {
   const double across = std::abs(end.place_nm) / panel.place_max_nm;
@@ -44,7 +44,7 @@ void add_hand(const std::string& label, const glm::vec3& color, const render::Pl
                           .retract = {{}, {end.place_nm / beyond, end.force_nn / beyond}}});
 }
 
-// The parts of a line within the axes, in the same colour; the first one has the label.
+// Adds the parts of a line within the axes, in the same colour; the first one has the label.
 void add_within_axes(const std::vector<render::PlotPoint>& line, render::PlotCurve look, render::ForcePanel& panel) {
   const auto end_part = [&] {
     if (look.retract.size() > 1) {
@@ -65,7 +65,7 @@ void add_within_axes(const std::vector<render::PlotPoint>& line, render::PlotCur
   end_part();
 }
 
-// Through the origin and the largest swing of this drive.
+// Circle through the origin and the largest swing of this drive.
 std::vector<render::PlotPoint> circle(double diameter_m) {
   std::vector<render::PlotPoint> line;
   for (int i = 0; i <= kPointsOfCircle; ++i) {

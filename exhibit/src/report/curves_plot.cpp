@@ -21,7 +21,7 @@ struct Window {
   double force_min_nn = -kInfinity;
 };
 
-// Points outside the window break the line.
+// Points of a curve; those outside the window break the line.
 std::vector<curves::SvgPoint> points_within(const std::vector<render::PlotPoint>& points, const Window& window) {
   constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
   std::vector<curves::SvgPoint> result;

@@ -14,7 +14,7 @@
 namespace afm::exhibit {
 namespace {
 
-constexpr double kNm2 = 1e-18;  // in m^2
+constexpr double kNm2 = 1e-18;  // square nanometre in m^2
 constexpr physics::Time kDotTime(1.0);
 constexpr physics::Velocity kLineSpeed(100e-9);
 

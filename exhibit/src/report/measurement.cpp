@@ -13,10 +13,10 @@ namespace afm::exhibit {
 
 namespace {
 
-// 0 if both are equal, as for a feature that a recording lacks, which is 0 in both.
+// Relative difference; 0 if both are equal, as for a feature that a recording lacks, which is 0 in both.
 double relative(double value, double reference) { return value == reference ? 0.0 : value / reference - 1.0; }
 
-// "jump to contact"
+// Event in words: "jump to contact".
 std::string event_words(physics::EventKind kind) {
   std::string words(physics::name_of(kind));
   std::replace(words.begin(), words.end(), '-', ' ');

@@ -40,7 +40,7 @@ nlohmann::json json_of(const core::Percentiles& p) {
   return {{"p50", p.p50}, {"p99", p.p99}, {"p99.9", p.p999}, {"max", p.max}};
 }
 
-// Of a lever that taps: heights and swings instead of forces.
+// Measurement in tapping mode: heights and swings instead of forces.
 nlohmann::json json_of(const Measurement& m, const TappedCycle& tapped) {
   nlohmann::json json = tapped_json(tapped);
   const CycleEvents error = m.error_vs_calculation();
@@ -170,7 +170,7 @@ std::string events_table(const DemoResult& result, const Phrases& phrases) {
 
 bool is_tapped(const DemoResult& result) { return !result.measurements.empty() && result.measurements.front().tapped; }
 
-// Uses the unit that leaves 1 to 1000 before the point: "11.49 ms".
+// Time in the unit that leaves 1 to 1000 before the point: "11.49 ms".
 std::string time_text(double seconds) {
   static constexpr std::array<std::pair<double, const char*>, 3> kTimeUnits{
       {{1.0, "s"}, {1e-3, "ms"}, {1e-6, "\u00b5s"}}};
@@ -245,8 +245,8 @@ std::string servo_html(const scene::ServoTiming& servo, std::uint64_t lost_sampl
       std::to_string(servo.missed), std::to_string(lost_samples))));
 }
 
-// The cycle of a session, from the highest base before the lowest one to the highest after it; what comes before and
-// after is the hand's way there and back.
+// Cycle of a session, from the highest base before the lowest one to the highest after it; everything before and
+// after is the hand's path there and back.
 struct RecordedCycle {
   std::size_t begin = 0, lowest = 0, end = 0;
 

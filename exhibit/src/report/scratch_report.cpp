@@ -21,9 +21,9 @@ using physics::kForceUnits;
 using physics::kLengthUnits;
 using physics::Length;
 
-constexpr double kNm3 = 1e-27;  // in m^3
+constexpr double kNm3 = 1e-27;  // cubic nanometre in m^3
 
-// Figures of a soft sample that a user needs before a scratch, at a load.
+// Figures of a soft sample at a load, for a user who plans a scratch.
 struct ScratchFigures {
   Force load, least_load, cap_load, lateral;
   Length standing, standing_left, dragged, dragged_left, width, ridge;

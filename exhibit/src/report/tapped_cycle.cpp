@@ -19,7 +19,7 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kLeastSettlingS = 5e-3;
-constexpr double kRelaxations = 8.0;  // after which a change of the swing is below a thousandth of it
+constexpr double kRelaxations = 8.0;  // relaxations after which a change of the swing is below a thousandth
 
 double degrees(double rad) { return rad * 180.0 / std::numbers::pi; }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kOutliers = 0.003;  // share of all values at each end, so that spikes do not narrow the colour range
 
-// The largest unit in which the side is at least 1.
+// Largest unit in which the side is at least 1.
 struct SideUnit {
   double m;
   const char* name;

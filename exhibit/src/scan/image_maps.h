@@ -34,10 +34,10 @@ Srgb grey(double zero_to_one);
 // Half a range in nanonewtons, for a panel's title.
 std::string nanonewtons(const Range& range);
 
-// "500 nm"
+// Length of a side as text: "500 nm".
 std::string side_text(double side_m);
 
-// Side and scale bar of the square; bar of the heights.
+// Side and scale bar of the square; colour bar of the heights.
 void show_side(double side_m, render::ImagePanel& panel);
 void show_heights(double high_nm, render::ImagePanel& panel);
 

@@ -19,7 +19,7 @@ constexpr Color kPaper{24, 26, 30}, kInk{235, 235, 235};
 constexpr std::uint32_t kSmallestSide = 256, kPictureMargin = 12, kRangeBarWidth = 16, kRangeLabelWidth = 100,
                         kPictureFooter = 44;
 
-// Three columns of five dots, the top row in the highest bits.
+// Glyph of three columns of five dots, the top row in the highest bits.
 struct Glyph {
   char letter;
   std::uint16_t dots;
@@ -58,7 +58,7 @@ class Canvas {
 
   // Stripes that run on from one square to the next.
   void hatch(std::uint32_t left, std::uint32_t top, std::uint32_t side) {
-    constexpr std::uint32_t kStripes = 6;  // pixels from one to the next
+    constexpr std::uint32_t kStripes = 6;  // pixels from one stripe to the next
     for (std::uint32_t y = top; y < top + side; ++y) {
       for (std::uint32_t x = left; x < left + side; ++x) {
         if ((x + y) % kStripes == 0) dot(x, y, kPaper);
@@ -94,7 +94,7 @@ struct ValueRange {
   }
 };
 
-// The range of all values but this share at each end.
+// Range of the values without this fraction at each end.
 ValueRange value_range_of(std::vector<double> values, double cut_share) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   if (values.empty()) return {};
@@ -112,7 +112,7 @@ std::string value_label(double value, const std::string& unit) {
   return physics::format_si(value, physics::kPlainNumber.units, kDigits);
 }
 
-// The longest length of 1, 2 or 5 times a power of ten that is at most a third of the width.
+// Longest length of 1, 2 or 5 times a power of ten that is at most a third of the width.
 double round_length_m(double width_m) {
   const double third_m = width_m / 3.0, decade_m = std::pow(10.0, std::floor(std::log10(third_m)));
   for (const double factor : {5.0, 2.0}) {

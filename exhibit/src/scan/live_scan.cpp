@@ -17,9 +17,9 @@ constexpr std::uint32_t kPixelsOfFrame = 2 * LiveScan::kPixels * LiveScan::kPixe
 constexpr std::uint32_t kMostFrames = 10'000'000;
 constexpr std::size_t kMostChanges = 10'000;
 constexpr std::uint32_t kMostTicks = 1U << 31U;         // limit for a painting hand: weeks
-constexpr double kNarrowestM = 1e-10, kWidestM = 1e-3;  // side of the square
+constexpr double kNarrowestM = 1e-10, kWidestM = 1e-3;  // limits for the side of the square
 constexpr double kLoopTickS = 10e-6;
-constexpr double kLongestTickS = 5e-3;  // longest tick of the servo that a loop compensates
+constexpr double kLongestTickS = 5e-3;  // longest tick of the servo for which a loop compensates
 
 void clear(std::vector<double>& map) {
   map.assign(LiveScan::kPixels * LiveScan::kPixels, std::numeric_limits<double>::quiet_NaN());
@@ -29,7 +29,7 @@ bool precedes(const ScanChange& change, std::uint32_t frame, std::uint32_t pixel
   return change.frame < frame || (change.frame == frame && change.pixel <= pixel);
 }
 
-// Settings without a drive, of an older recording, have that of `usual`.
+// Settings with a drive; those of an older recording, which lack it, get that of `usual`.
 ScanChoice completed(ScanChoice choice, const ScanChoice& usual) {
   if (!in_tapping(choice)) return choice;
   if (choice.free_amplitude_m == 0.0) choice.free_amplitude_m = usual.free_amplitude_m;
@@ -71,7 +71,7 @@ LiveScan::LiveScan(ScanSubject subject, const ScanProgress& progress, std::span<
   find_truth();
 }
 
-// Finds the usual settings, and the detector of a lever that taps by itself. One that never has the usual amplitude
+// Finds the usual settings, and the detector of a tapping lever. A lever that never has the usual amplitude
 // takes its image in contact.
 void LiveScan::prepare_detector() {
   usual_ = usual_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, subject_.adhesion_n);
@@ -165,7 +165,7 @@ void LiveScan::apply(const ScanChoice& choice) {
   if (loop_) loop_->change(scanner_->settings(), physics::Time(kLoopTickS));
 }
 
-// Returns false at the end of the frame.
+// Takes the next pixel. Returns false at the end of the frame.
 bool LiveScan::next_pixel() {
   for (const ScanChange& change : progress_.changes) {
     if (change.frame == progress_.frame && change.pixel == progress_.pixel && change.choice != applied_) {
@@ -319,7 +319,7 @@ void LiveScan::show_truth(bool shown) {
   find_truth();
 }
 
-// Runs once per frame and tip, not in every frame of the wall.
+// Computes the truth. Runs once per frame of the scan and tip, not in every frame of the wall.
 void LiveScan::find_truth() {
   if (!progress_.truth) return truth_.reset();
   if (truth_ && truth_->frame == progress_.frame && truth_->tip_radius_m == applied_.tip_radius_m) return;
@@ -346,7 +346,7 @@ bool LiveScan::step(ScanRow row, int steps) {
   if ((drives || row == ScanRow::Setpoint) && detector_ && in_tapping(choice)) {
     physics::TappingDetector now = *detector_;
     if (!hold(choice)) return false;
-    detector_ = std::move(now);  // the change takes effect with the next pixel
+    detector_ = std::move(now);  // detector that takes effect with the next pixel
   }
   change_to(choice);
   return true;

@@ -23,12 +23,12 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kMostCells = 128;  // largest side of the grid; a pixel of a small map has several
+constexpr std::size_t kMostCells = 128;  // largest side of the grid; a pixel of a small map has several cells
 
-// Number of cells for so many pixels: whole multiples, or as many as are drawn.
+// Number of cells for a number of pixels: whole multiples, or as many as are drawn.
 std::size_t cells_of(std::size_t pixels) { return pixels >= kMostCells ? kMostCells : pixels * (kMostCells / pixels); }
 
-// The range of the values but the outermost percent at each end.
+// Range of the values without the outermost percent at each end.
 Range inner_range(std::vector<double> values) {
   constexpr double kCutShare = 0.01;
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
@@ -38,7 +38,7 @@ Range inner_range(std::vector<double> values) {
   return {values[cut], values[values.size() - 1 - cut], false};
 }
 
-// Pixels that one cell covers along a side.
+// Pixels covered by one cell along a side.
 struct Covered {
   std::size_t first = 0, end = 0;
 };
@@ -47,7 +47,7 @@ Covered covered_by(std::size_t cell, std::size_t cells, std::size_t pixels) {
   return {first, std::max(first + 1, (cell + 1) * pixels / cells)};
 }
 
-// The first value of a cell: a single curve among many pixels without one must be seen. NaN: none.
+// First value of a cell: a single curve among many pixels without one must be visible. NaN: none.
 double value_in(const std::vector<double>& values, std::size_t pixels_across, const Covered& rows,
                 const Covered& columns) {
   for (std::size_t row = rows.first; row < rows.end; ++row) {
@@ -86,8 +86,8 @@ struct QuantityRow {
   std::string_view name;
   Phrase title;
   double least_range;                                         // smallest range of the colours: equal pixels look equal
-  double (*value)(const curves::PixelFit& fit);               // null: the height
-  std::string (*text)(double value, const Phrases& phrases);  // with its unit
+  double (*value)(const curves::PixelFit& fit);               // value of a pixel; null: the height
+  std::string (*text)(double value, const Phrases& phrases);  // value with its unit
 };
 constexpr std::array kQuantities{
     QuantityRow{MapQuantity::Height, "height", Phrase::MapHeights, kLeastRangeM, nullptr, height_text},

@@ -19,12 +19,12 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kColouredShare = 0.998;  // coloured share of the map's width, within the edge of the sample
+constexpr double kColouredShare = 0.998;  // coloured fraction of the map's width, within the edge of the sample
 
 // Place of a vertex along a side, -0.5 to 0.5.
 double vertex_middle(std::size_t cell) { return (static_cast<double>(cell) + 0.5) / kReliefSide - 0.5; }
 
-// Cell of a grid at a place from 0 to 1.
+// Cell of a grid at a place, 0 to 1.
 std::size_t grid_cell_at(double place, std::uint32_t cells) {
   return static_cast<std::size_t>(std::clamp(std::floor(place * cells), 0.0, cells - 1.0));
 }

@@ -24,7 +24,7 @@ double relief_m(const LiveScan& scan) {
   return std::max(high - low, 0.0);
 }
 
-// Time in which drift has added up in the visible image: of whole lines, or of the previous frame.
+// Time over which drift has added up in the visible image: of whole lines, or of the previous frame.
 double seen_s(const LiveScan& scan) {
   if (scan.progress().frame > 0) return static_cast<double>(LiveScan::kPixels) / scan.choice().line_rate_hz;
   const auto pixels_of_line = static_cast<double>(scan.progress().pixel % (2 * LiveScan::kPixels));
@@ -78,7 +78,7 @@ physics::ScanEvidence evidence_of(const LiveScan& scan) {
 }  // namespace
 
 physics::ScanArtefact cause_of(const LiveScan& scan) {
-  if (scan.is_painted()) return physics::ScanArtefact::None;  // a hand has no lines
+  if (scan.is_painted()) return physics::ScanArtefact::None;  // image without lines, painted by a hand
   if (scan.progress().frame == 0 && scan.row() < kJudgedLines)
     return physics::ScanArtefact::None;  // too few lines to judge
   const physics::ScanSettings settings = settings_of(scan.choice(), scan.subject().adhesion_n);

@@ -22,7 +22,7 @@ namespace {
 constexpr double kSpring = 5.0;
 constexpr double kApexShare = 0.18;      // distance of a second apex, as a share of the side
 constexpr double kFarthestApexM = 1e-5;  // see physics::kScanFields
-constexpr double kApexHeightM = 0.0;     // both apexes are equally high, so both image every bump
+constexpr double kApexHeightM = 0.0;     // height difference 0, so that both apexes image every bump
 
 enum class Below { Nothing, Zero, Negative };
 
@@ -33,7 +33,7 @@ struct Series {
   Below below;
 };
 
-// In the order of ScanRow. The second apex has two values, and the rows of the drive depend on the lever.
+// Series in the order of ScanRow. The second apex has two values, and the rows of the drive depend on the lever.
 constexpr std::array kSeries{
     Series{&ScanChoice::setpoint_n, 0.1e-9, 50e-9, Below::Negative},  // below zero only adhesion holds the tip
     Series{&ScanChoice::gain_per_s, 20.0, 20e3, Below::Nothing},
@@ -46,17 +46,17 @@ static_assert(kSeries.size() + 3 == core::kEnumerators<ScanRow>.size());
 constexpr double kSame = 1e-6;  // largest relative difference of equal values
 
 constexpr double kSlowestUsualHz = 2.0;  // a minute per image; prefers a stronger force to a slower scan
-constexpr double kMostLag = 0.5;         // share of the bend that adhesion can hold, which keeps the tip on the sample
+constexpr double kMostLag = 0.5;         // fraction of the bend that adhesion can hold, so the tip stays on the sample
 
-// The setpoint in tapping mode, in steps of a twentieth of the free amplitude.
+// Setpoint in tapping mode, in steps of a twentieth of the free amplitude.
 constexpr double kStepsOfShare = 20.0, kLeastShare = 0.3, kMostShare = 0.95, kUsualShare = 0.8;
 constexpr double kUsualTappingHz = 2.0;
 
-// Drive of a tapping lever: free amplitudes as shares of the one at the start, within the range of its table of swings;
-// frequencies as shares of the half width of its resonance.
+// Drive of a tapping lever: free amplitudes relative to that at the start, within the range of its table of swings;
+// frequencies relative to the half width of its resonance.
 constexpr double kStepsOfAmplitude = 20.0, kLeastAmplitude = 0.3, kMostAmplitude = 1.2;
 constexpr double kStepsOfWidth = 5.0, kMostWidths = 1.0;
-constexpr double kSlack = 1e-9;  // relative, for rounding
+constexpr double kSlack = 1e-9;  // relative tolerance for rounding
 constexpr int kDigitsOfDrive = 6;
 
 double half_width_hz(const physics::DrivenLever& lever) { return 0.5 * lever.resonance.si / lever.quality_factor; }
@@ -67,7 +67,7 @@ double stepped_share(double share, int steps) {
   return std::clamp(next, kLeastShare, kMostShare);
 }
 
-// The next value of the series above or below a value, which need not belong to it.
+// Next value of the series above or below a value, which need not belong to it.
 double neighbour(double value, int direction) {
   const double decade = std::pow(10.0, std::floor(std::log10(value * (1.0 + kSame))));
   if (direction > 0) {

@@ -35,7 +35,7 @@ double reachable_side_m(const scene::SharedDevice& device, const std::array<doub
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double reach_m = std::min(device.workspace_max_m[axis], -device.workspace_min_m[axis]);
     const auto i = static_cast<int>(axis);
-    const double share = std::abs(x[i]) + std::abs(y[i]);  // share of the half side, at a corner
+    const double share = std::abs(x[i]) + std::abs(y[i]);  // fraction of the half side, at a corner
     if (reach_m < kHardlyM || share < 1e-9) continue;
     half_m = std::min(half_m, (reach_m - haptics::WorkspaceStop::kDepthM - kClearM) / share);
   }

@@ -51,7 +51,7 @@ render::ProfilePlot newest_line(const LiveScan& scan, const Range& heights, cons
   const double side_nm = scan.subject().side_m * 1e9, high_nm = (heights.high - heights.low) * 1e9;
   render::ProfilePlot plot{.title = phrases[Phrase::ScanNewestLine],
                            .low = {0.0, -0.06 * high_nm},
-                           .high = {side_nm, 1.30 * high_nm},  // leaves room for the legend
+                           .high = {side_nm, 1.30 * high_nm},  // top with room for the legend
                            .lines = {}};
   const auto row = scan.newest_row();
   if (!row) return plot;
@@ -169,7 +169,7 @@ void show_maps_of_swing(const ScanMaps& maps, const Phrases& phrases, render::Im
                     colored(maps.energy_j[0], energy, grey)}};
 }
 
-// In the order of ScanRow.
+// Names of the rows in the order of ScanRow.
 constexpr std::array<Phrase, 9> kRowNames{
     Phrase::ScanSetpoint,   Phrase::ScanGain,          Phrase::ScanRate,
     Phrase::TipRadius,      Phrase::ScanNoise,         Phrase::ScanDrift,
@@ -247,7 +247,7 @@ void show_scan(const LiveScan& scan, Moment& moment) {
   WallState& wall = moment.wall;
   wall.scan = true;
   moment.scan = &scan;
-  if (scan.is_painted()) return;  // the hand has the tip
+  if (scan.is_painted()) return;  // scan whose tip belongs to the hand
   const glm::dvec3 apex_m = scan.apex_m();
   constexpr int kSamples = 64;
   const double half_m = 0.5 * scan.subject().shown_side_m();

@@ -24,9 +24,9 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kPlaneSideM = 500e-9;   // side for a sample without relief
-constexpr double kShareOfSample = 0.92;  // scanned share of the drawn sample's width
+constexpr double kShareOfSample = 0.92;  // scanned fraction of the drawn sample's width
 
-// In metres as measured.
+// Grid of heights in metres as measured.
 physics::HeightGrid grid_of(const scene::FeltHeights& heights, const scene::TopographyScale& shown) {
   const double spacing_m = heights.spacing_m / shown.lateral;
   physics::HeightGrid grid{.columns = heights.columns,

@@ -10,8 +10,8 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kMarginShare = 0.125;  // width of the rim as a share of the side
-constexpr double kSeenGap = 0.02;       // smallest gap shown, as a share of the sample's range
+constexpr double kMarginShare = 0.125;  // width of the rim relative to the side
+constexpr double kSeenGap = 0.02;       // smallest gap shown, relative to the sample's range
 constexpr std::size_t kReach = 8;       // half width of the estimated tip in points of the coarser grid
 constexpr double kSureOfNoise = 4.0;    // in units of the noise
 

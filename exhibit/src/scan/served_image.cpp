@@ -37,7 +37,7 @@ void ServedImage::add(const physics::ScanLine& line) {
 
 render::ColorGrid ServedImage::colored(const std::vector<double>& map, double low, double high,
                                        Srgb (*color)(double)) const {
-  constexpr std::size_t kMostPanelCells = 256;  // a panel shows no more
+  constexpr std::size_t kMostPanelCells = 256;  // limit of a panel
   const std::size_t cells = std::min(kMostPanelCells, std::max(size_.columns, size_.rows));
   const double side_m = std::max(size_.width_m, size_.height_m);
   // nearest pixel of a cell along one axis; none beside the image
@@ -87,7 +87,7 @@ render::ImagePanel ServedImage::panel(const std::string& sample, const Phrases& 
   const double side_m = std::max(size_.width_m, size_.height_m), high_nm = (heights.high - heights.low) * 1e9;
   panel.profile = {.title = phrases[Phrase::ScanNewestLine],
                    .low = {0.0, -0.06 * high_nm},
-                   .high = {size_.width_m * 1e9, 1.30 * high_nm},  // leaves room for the legend
+                   .high = {size_.width_m * 1e9, 1.30 * high_nm},  // top with room for the legend
                    .lines = {}};
   show_side(side_m, panel);
   show_heights(high_nm, panel);

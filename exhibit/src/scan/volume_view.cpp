@@ -28,7 +28,7 @@ using glm::dvec3;
 namespace {
 
 constexpr double kVolumeWithinRim = 0.998;  // share of the map's width, as of exhibit/scan/map_relief.h
-constexpr double kSliceBehind = 0.012;      // distance of the slice behind the tip's axis, which stays in front of it
+constexpr double kSliceBehind = 0.012;      // distance of the slice behind the tip's axis, clear of the tip
 constexpr double kLeastTop = 1e-12;         // height of the curves of a map without any force
 constexpr float kFaintestCoverage = 0.30F, kStrongestCoverage = 0.92F;  // coverage without force, and of the strongest
 constexpr int kForceDigits = 3;
@@ -47,7 +47,7 @@ std::string force_words(double force_n, const Phrases& phrases) {
       curves::typographic(physics::format_quantity(physics::Force(force_n), physics::kForceUnits, kForceDigits)));
 }
 
-// Share of the range, from -1 to 1; NaN stays.
+// Fraction of the range, from -1 to 1; NaN stays.
 double share_of_range(double force_n, const ForceVolume& volume) {
   return force_n < 0.0 ? -force_n / volume.strongest_pull_n() : force_n / volume.strongest_push_n();
 }
@@ -109,7 +109,7 @@ const VolumeView::Scales& VolumeView::scales_of(const curves::SampleModel& model
   return *scales_;
 }
 
-// Height of the drawn surface at a place as measured.
+// Height of the drawn surface at a measured place.
 double VolumeView::surface(const Scales& scales, double x_m, double y_m) const {
   const double drawn = scales.lateral / scales.shown.lateral;
   return scales.per_m * scales.shown.vertical * scales.drawn_m(drawn * x_m, drawn * y_m);
@@ -182,7 +182,7 @@ void VolumeView::write(const std::string& text, const dvec3& place, render::Fram
                                         .up_m = vector({0.0, 0.0, kForceTextHeight})}});
 }
 
-// Within the right end of the slice, `foot`; its numbers are beside it.
+// Adds the colour scale within the right end of the slice, at `foot`; its numbers are beside it.
 void VolumeView::add_bar(const ForceVolume& volume, const Scales& scales, const dvec3& foot,
                          render::FrameState& frame) const {
   const double height = std::max(scales.top, 2.0 * kForceTextHeight);

@@ -11,7 +11,7 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-constexpr double kShortestSpring = 0.1;  // share of its length: the coils touch
+constexpr double kShortestSpring = 0.1;  // length relative to the resting one at which the coils touch
 
 }  // namespace
 

@@ -36,7 +36,7 @@ std::uint32_t add_light(scene::Scene& scene, const char* name, float alpha) {
   return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-// A node with this mesh, or without one.
+// Adds a node with this mesh, or without one.
 scene::NodeIndex add_mark(scene::Scene& scene, const char* name, scene::NodeIndex parent,
                           std::optional<std::uint32_t> mesh) {
   scene::Node mark{.name = name, .parent = parent, .mesh = mesh};
@@ -45,7 +45,7 @@ scene::NodeIndex add_mark(scene::Scene& scene, const char* name, scene::NodeInde
   return static_cast<scene::NodeIndex>(scene.nodes.size() - 1);
 }
 
-// A copy of a node's mesh in another material; none if it has no mesh.
+// Copies a node's mesh in another material; empty if it has no mesh.
 std::optional<std::uint32_t> add_copy(scene::Scene& scene, scene::NodeIndex node, std::uint32_t material) {
   if (!scene.nodes[node].mesh) return std::nullopt;
   scene::Mesh mesh = scene.meshes[*scene.nodes[node].mesh];
@@ -57,7 +57,7 @@ std::optional<std::uint32_t> add_copy(scene::Scene& scene, scene::NodeIndex node
   return static_cast<std::uint32_t>(scene.meshes.size() - 1);
 }
 
-// The tip is fixed to the end of a lever bent like this, and rotates with it.
+// Pose of the tip, which is fixed to the end of a lever bent like this and rotates with it.
 dmat4 lever_from_tip(double end, double angle) {
   const dvec3 tip_z(-std::sin(angle), 0.0, std::cos(angle));
   return frame_matrix({std::cos(angle), 0.0, std::sin(angle)}, {0.0, 1.0, 0.0}, tip_z, {kLeverDrawnLength, 0.0, end});
@@ -113,7 +113,7 @@ void Instrument::measure(scene::Scene& scene, ModelBuilder& build) {
   body_depth_ = stage_scale_ * bounds_below(scene, body_).high.y;
 }
 
-// All in the sample's frame, layout units. The lever extends towards the viewer, parallel to the sample.
+// Pose of the lever in the sample's frame, layout units. The lever extends towards the viewer, parallel to the sample.
 Instrument::LeverPose Instrument::lever_pose(const Setting& setting) const {
   const double per_m = setting.layout_per_m;
   const dvec3 up(0.0, 0.0, 1.0);
@@ -209,8 +209,8 @@ void Instrument::place_optics(const scene::Scene& scene, const Setting& setting,
   const dvec3 lit = dvec3(kLeverDrawnLength, 0.0, pose.end) + kLeverDrawnThickness * face;
   const dvec3 lever_end(scene.nodes[sample_frame_].parent_from_node * pose.frame_from_lever * glm::dvec4(lit, 1.0));
 
-  // a lever that is lifted out of the picture, as above particles, gets no light: it would be hit from below
-  constexpr double kUnseen = 1e-6;  // radius
+  // no light for a lever that is lifted out of the picture, as above particles: it would be hit from below
+  constexpr double kUnseen = 1e-6;  // radius too small to be seen
   const bool dark = lever_end.y > kLaser.y;
   const double beam_radius = dark ? kUnseen : kBeamRadius;
 
@@ -229,7 +229,7 @@ void Instrument::place_optics(const scene::Scene& scene, const Setting& setting,
   set(beam_out_, stretched(lever_end, dvec3(spot[3]), beam_radius));
 }
 
-// The plate below a sample, and below that its body, which ends in the floor, wherever the wand has moved them.
+// Places the plate below a sample, and its body below that, which ends in the floor, wherever the wand has moved them.
 void Instrument::place_stage(const scene::Scene& scene, double thickness, std::vector<dmat4>& local) const {
   local[stage_] =
       glm::scale(glm::translate(dmat4(1.0), dvec3(0.0, 0.0, -thickness)), dvec3(stage_scale_)) * local[stage_];

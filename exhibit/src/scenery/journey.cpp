@@ -22,20 +22,20 @@ using glm::dvec3;
 // the viewer, from so little above the ground.
 constexpr double kLowViewRad = 0.13, kLeastTiltRad = -0.25, kLowFromOrders = 6.0, kLowAtOrders = 7.5;
 
-constexpr double kBeyondFog = 20.0;     // in layout units; beyond the fog
+constexpr double kBeyondFog = 20.0;     // layout units beyond the fog
 constexpr double kBelowPixel = 0.0015;  // size in layout units
 
 // Scales between which the tip's soft shade replaces the shadows of the triangles.
 constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
-// The sample's atoms come out of its ground over this range of scales, once those up to this distance from the contact
+// Scales at which the sample's atoms come out of its ground, once those up to this distance from the contact
 // point fill the view: farther ones are drawn with few corners (assets/generate/journey_ground.cpp).
 constexpr double kAtomsRange = 0.3, kAtomsAtOrders = 8.5, kAtomsAtLast = 8.95, kAtomsReachM = 6.45e-9;
 constexpr double kAtomsHiddenM = 0.36e-9;
 
-// Among the atoms everything is in the tip's shade, which leaves them some light.
+// Light among the atoms, where everything is in the tip's shade.
 constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
 
-constexpr double kWidestShade = 0.4;  // layout units
+constexpr double kWidestShade = 0.4;  // in layout units
 
 constexpr double kVeilS = 0.5, kTravelS = 20.0;
 constexpr double kWholeS = 2.0 * kVeilS + kTravelS;
@@ -62,7 +62,7 @@ double tilt_under_tip(const Journey::View& view) {
   return std::clamp(kLowViewRad - std::atan2(view.eye.y, view.eye.z), kLeastTiltRad, kSampleTiltRad);
 }
 
-// Distance from the contact point, in layout units, of the farthest ground that is seen at the screen's lower border.
+// Distance from the contact point, in layout units, of the farthest ground seen at the screen's lower border.
 double ground_at_border(const Journey::View& view, double tilt_rad) {
   const dvec3 up(0.0, std::cos(tilt_rad), std::sin(tilt_rad));
   double farthest = 0.0;
@@ -130,7 +130,7 @@ void Journey::measure_tip(const scene::Scene& scene, ModelBuilder& build) {
   // a ball about the axis goes through the lowest place of the apex and through its widest
   glm::dvec2 low(0.0, std::numeric_limits<double>::infinity()), wide(0.0);
   for_each_place(scene, frame_, build.node("journey/apex"), [&](const dvec3& place) {
-    const glm::dvec2 seen(glm::length(glm::dvec2(place)), place.z);  // from the axis, and up
+    const glm::dvec2 seen(glm::length(glm::dvec2(place)), place.z);  // distance from the axis, and height
     if (seen.y < low.y) low = seen;
     if (seen.x > wide.x) wide = seen;
   });
@@ -142,7 +142,7 @@ void Journey::measure_tip(const scene::Scene& scene, ModelBuilder& build) {
     tip_.height_m = std::max(tip_.height_m, place.z - tip_.lowest_m);
     edge = std::max(edge, glm::length(glm::dvec2(place)));
   });
-  const double face = edge / std::sqrt(2.0);  // the pyramid is square
+  const double face = edge / std::sqrt(2.0);  // distance of a face; the pyramid is square
   tip_.slope = 0.5 * (edge + face) / tip_.height_m;
 }
 

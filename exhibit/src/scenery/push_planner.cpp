@@ -23,9 +23,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr double kShortestPlan = 0.1;  // in radii
+constexpr double kShortestPlan = 0.1;  // length in radii
 constexpr double kPointedReach = 1.3;  // reach of a sphere for a ray, in radii
-constexpr double kFreeWay = 3.0;       // in rho, without a pattern
+constexpr double kFreeWay = 3.0;       // distance without a pattern, in rho
 constexpr std::size_t kDirections = 8;
 constexpr int kDigitsOfPlan = 3;
 
@@ -64,7 +64,7 @@ glm::dvec2 PushPlanner::place_m(std::size_t particle, const ParticlesNow& now) c
   return pose ? glm::dvec2(pose->x_m, pose->y_m) : starts_m_[particle];
 }
 
-// Number of the place that the best match with the pattern assigns to the particle.
+// Index of the place that the best match with the pattern assigns to the particle.
 std::size_t PushPlanner::assigned_place(std::size_t particle, const ParticlesNow& now) const {
   const auto pattern = pattern_of(now);
   for (std::size_t place = 0; pattern && place < pattern->match.particles.size(); ++place) {
@@ -90,7 +90,7 @@ std::string PushPlanner::choose(std::size_t particle, const ParticlesNow& now) {
   return go_to_place(assigned_place(particle, now), now);
 }
 
-// The first of the places from this one on that the sphere is not at.
+// Plans the way to the first place, from this index on, at which the sphere does not lie.
 std::string PushPlanner::go_to_place(std::size_t first, const ParticlesNow& now) {
   const std::vector<glm::dvec2> places = places_m(static_cast<std::size_t>(plan_.particle), now);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -100,7 +100,7 @@ std::string PushPlanner::go_to_place(std::size_t first, const ParticlesNow& now)
   return end();
 }
 
-// Plans the way there from where the sphere is; false if it is there.
+// Plans the way to a place from the sphere's own; false if the sphere is there.
 bool PushPlanner::go_to(const glm::dvec2& place_m, const ParticlesNow& now) {
   const auto particle = static_cast<std::size_t>(plan_.particle);
   const glm::dvec2 from_m = this->place_m(particle, now);

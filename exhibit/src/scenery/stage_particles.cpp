@@ -33,19 +33,19 @@ using glm::dmat4;
 using glm::dvec3;
 
 constexpr double kDrawnReach = 0.52;     // layout units from the middle of the sample to the outermost particle's edge
-constexpr double kDrawnDiameter = 0.13;  // most of a median particle
+constexpr double kDrawnDiameter = 0.13;  // largest size of a median particle
 constexpr glm::vec3 kTouched{1.35F, 1.3F, 1.1F};
 
 constexpr double kShortestWay = 0.2;  // shortest way with a footprint, in radii
-constexpr double kDotSpacing = 0.45;  // in radii
+constexpr double kDotSpacing = 0.45;  // distance in radii
 constexpr std::uint32_t kMostDots = 64, kMostDotsInAll = 8192;
-// Dots along lines that are to be written; distance and size in widths of the groove.
+// Dots along lines to write; distance and size in widths of the groove.
 constexpr std::uint32_t kMostLineDots = 1024;
 constexpr double kLineDotSpacing = 0.6, kLineDotSize = 1.5;
 
 // Sizes of a plan, in radii: its dots are larger and closer than those of a path, its rings wider than a footprint.
 constexpr double kPlanDotSpacing = 0.3, kPlanDotSize = 1.4, kPlanRingSize = 1.8;
-constexpr glm::vec4 kPlanned{0.35F, 1.05F, 1.15F, 1.0F};  // tint
+constexpr glm::vec4 kPlanned{0.35F, 1.05F, 1.15F, 1.0F};  // tint of a plan
 
 // Dots around a particle that was not measured: how many, and their distance and size in radii.
 struct DoubtMark {
@@ -54,10 +54,10 @@ struct DoubtMark {
 };
 constexpr DoubtMark kComputedMark{12, 1.0}, kStaleMark{4, 2.4};
 constexpr double kDoubtRadius = 1.6;
-constexpr std::uint32_t kMostMarked = 512;  // particles with such dots
+constexpr std::uint32_t kMostMarked = 512;  // largest number of particles with such dots
 constexpr float kStaleShade = 0.3F;
 
-// Linear colours of the species, apart in lightness too.
+// Linear colours of the species, which also differ in lightness.
 constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
                                                    {0.80F, 0.84F, 0.88F},
                                                    {0.30F, 0.55F, 0.40F},
@@ -67,7 +67,7 @@ constexpr std::array<glm::vec3, 8> kSpeciesColors{{{0.83F, 0.56F, 0.15F},
                                                    {0.45F, 0.30F, 0.55F},
                                                    {0.25F, 0.25F, 0.28F}}};
 
-// Places, as the servo has them, and sizes of the particles.
+// Places in the servo's order, and sizes of the particles.
 struct Placed {
   std::size_t species = 0;
   double radius_m = 0, half_m = 0, outer_m = 0, x_m = 0, y_m = 0, angle_rad = 0;
@@ -88,10 +88,10 @@ std::vector<Placed> placed(const scene::ParticleSet& set) {
   return all;
 }
 
-// Way from the middle of a rod to its front end, over half its length.
+// Direction from the middle of a rod to its front end, in half lengths.
 glm::dvec2 axis_of(const physics::HalfTurn& turn) { return {turn.w * turn.w - turn.z * turn.z, 2.0 * turn.w * turn.z}; }
 
-// On the sample, in layout units.
+// Mark on the sample, in layout units.
 render::MeshCopy mark_at(const glm::dvec2& place, double size) {
   return {.place = glm::vec3(dvec3(place, 0.0)), .scale = static_cast<float>(size)};
 }
@@ -159,7 +159,7 @@ StageParticles::StageParticles(const scene::ParticleSet& set, ModelBuilder& buil
   doubts_ = build.node("doubts/dot");
   ring_ = build.node("touched-particle/ring");
   tip_ = build.node("true-tip/tip");
-  const auto count = std::max(1U, static_cast<std::uint32_t>(particles_.size()));  // none where the tip leaves marks
+  const auto count = std::max(1U, static_cast<std::uint32_t>(particles_.size()));  // none if the tip leaves marks
   most_dots_ = std::clamp(kMostDotsInAll / count, 1U, kMostDots);
   if (build.error()) return;
   scene.nodes[spheres_].most_copies = scene.nodes[footprints_].most_copies = count;
@@ -226,7 +226,7 @@ void StageParticles::place(const ParticlesNow* now, double layout_per_m, const d
   local[ring_] = glm::scale(glm::translate(dmat4(1.0), foot), dvec3(layout_per_m * particles_[*particle].outer_m));
 }
 
-// The point of a rod's axis that is nearest to the tip.
+// Point of a rod's axis nearest to the tip.
 glm::dvec2 StageParticles::touched_m(const Particle& particle, const scene::ParticlePose& pose,
                                      const ParticlesNow& now) const {
   const glm::dvec2 middle_m(pose.x_m, pose.y_m), axis = axis_of(scene::turn_of(pose));
@@ -270,7 +270,7 @@ void StageParticles::add_copies(const ParticlesNow* now, double layout_per_m, re
   add_plan(*now, layout_per_m, frame);
 }
 
-// Height of a sphere that hangs on the tip, above the sample: it touches the tip.
+// Height above the sample of a sphere that hangs on the tip.
 double StageParticles::height_m(std::size_t particle, const scene::ParticlePose& pose, const ParticlesNow& now) const {
   const bool hangs = now.push.state == physics::PushState::Carried && touched(now, particles_.size()) == particle;
   if (!hangs) return 0.0;
@@ -292,7 +292,7 @@ void StageParticles::add_targets(double layout_per_m, render::FrameState& frame)
   }
 }
 
-// From where each particle lay at the start to where it lies: known on every machine without its path.
+// Adds dots from each particle's start to its place, straight, since other machines do not know its path.
 void StageParticles::add_marks(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
   render::MeshCopies footprints{.node = footprints_, .copies = {}}, dots{.node = dots_, .copies = {}};
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -334,7 +334,7 @@ void StageParticles::add_doubts(const ParticlesNow& now, double layout_per_m, re
   if (!dots.copies.empty()) frame.copies.push_back(std::move(dots));
 }
 
-// The line as planned, the first ring around the sphere wherever it lies now.
+// Adds the line as planned, with the first ring around the sphere wherever it lies now.
 void StageParticles::add_plan(const ParticlesNow& now, double layout_per_m, render::FrameState& frame) const {
   const auto particle = static_cast<std::size_t>(now.plan.particle);  // huge without a plan
   if (particle >= particles_.size()) return;
@@ -368,7 +368,7 @@ void add_lines(const LinesToWrite& lines, const WallScene& wall, render::FrameSt
       for (double dot = 0.0; dot <= gaps && dots.copies.size() < most; dot += 1.0) {
         const glm::dvec2 place_m = glm::mix(corners_m[i], corners_m[i + 1], dot / gaps);
         dots.copies.push_back(mark_at(layout_per_m * place_m, layout_per_m * kLineDotSize * lines.width_m));
-        dots.copies.back().place.z += static_cast<float>(kReliefLift);  // on the marks
+        dots.copies.back().place.z += static_cast<float>(kReliefLift);  // height above the marks
         dots.copies.back().tint = kPlanned;
       }
     }

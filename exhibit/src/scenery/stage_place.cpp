@@ -14,7 +14,7 @@ namespace {
 using glm::dvec3;
 using scene::Screen;
 
-constexpr double kCorner = 0.05;     // gap of adjoining screens, as a share of the main screen's width
+constexpr double kCorner = 0.05;     // gap of adjoining screens, relative to the main screen's width
 constexpr double kNarrowest = 0.25;  // width of a side screen in units of the main one; too narrow for a panel below
 constexpr double kFacingTie = 0.02;  // difference of cosines below which two screens are faced equally
 
@@ -22,7 +22,7 @@ dvec3 right_of(const Screen& screen) { return glm::normalize(screen.lower_right 
 
 dvec3 up_of(const Screen& screen) { return glm::cross(screen.normal(), right_of(screen)); }
 
-// Rectangle around the tiles of one plane, with the orientation of the first.
+// Rectangle around the tiles of one plane, with the orientation of the first tile.
 Screen around(const std::vector<Screen>& tiles) {
   const Screen& first = tiles.front();
   if (tiles.size() == 1) return first;
@@ -43,7 +43,7 @@ Screen around(const std::vector<Screen>& tiles) {
           .upper_left = corner(least.x, most.y)};
 }
 
-// The planes of a wall, each as one screen, in the order of the file.
+// Planes of a wall, each as one screen, in the order of the file.
 std::vector<Screen> planes_of(const scene::Wall& wall) {
   std::vector<std::vector<Screen>> planes;
   for (const Screen& screen : wall.screens) {
@@ -72,7 +72,7 @@ double facing(const Screen& screen, const scene::HeadPose& head) {
 
 double area(const Screen& screen) { return screen.width_m() * screen.height_m(); }
 
-// The largest of the screens that are faced most directly; the first of equal ones.
+// The largest of the screens faced most directly; the first among equals.
 const Screen& faced(const std::vector<Screen>& screens, const scene::HeadPose& head) {
   return *std::max_element(screens.begin(), screens.end(), [&](const Screen& a, const Screen& b) {
     const double difference = facing(b, head) - facing(a, head);
@@ -80,7 +80,7 @@ const Screen& faced(const std::vector<Screen>& screens, const scene::HeadPose& h
   });
 }
 
-// Returns whether `side` continues the main screen at its edge: upright too, wide enough, and in front of the viewer.
+// True if `side` continues the main screen at its edge: upright too, wide enough, and in front of the viewer.
 bool goes_on(const Screen& side, const dvec3& side_corner, const dvec3& main_corner, const Screen& main,
              const dvec3& head_m) {
   return glm::distance(side_corner, main_corner) < kCorner * main.width_m() &&

@@ -14,15 +14,15 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr float kUpwards = 0.5F;  // least share of a normal along z on the upper side
+constexpr float kUpwards = 0.5F;  // smallest component along z of a normal on the upper side
 
-using Place = std::pair<float, float>;  // seen from above
+using Place = std::pair<float, float>;  // place seen from above
 
 Place place_of(const scene::Vertex& vertex) { return {vertex.position.x, vertex.position.y}; }
 
 using Triangle = std::array<scene::Vertex, 3>;
 
-// The triangles of the lever's upper side.
+// Triangles of the lever's upper side.
 std::vector<Triangle> upper_side(const scene::Mesh& lever) {
   std::vector<Triangle> triangles;
   for (const scene::Primitive& primitive : lever.primitives) {

@@ -7,9 +7,9 @@
 
 namespace afm::exhibit {
 
-// The space that a vibrating lever sweeps: its outline, between its shapes with the end at -1 and at 1 along z. x and y
-// are those of the lever's mesh, whose upper side looks along +z; `length` is from its clamp, at x = 0, to the tip's
-// axis. All of `material`.
+// The space swept by a vibrating lever: its outline, between its shapes with the end at -1 and at 1 along z. x and y
+// are the axes of the lever's mesh, whose upper side faces +z; `length` is the distance from its clamp, at x = 0, to
+// the tip's axis. The whole mesh has `material`.
 scene::Mesh swing_band(const scene::Mesh& lever, double length, std::uint32_t material);
 
 }  // namespace afm::exhibit

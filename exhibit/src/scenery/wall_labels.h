@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Labels of the wall that lie beside what they name.
+// Labels of the wall beside the objects that they name.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -14,19 +14,19 @@
 
 namespace afm::exhibit {
 
-// Beside the place where the tip touches, in the wall's plane; moves with the sample, not with the tip.
+// Label beside the point of contact, in the wall's plane; moves with the sample, not with the tip.
 render::Label cue_label(const JumpCue& cue, const Phrases& phrases, const WallPlaces& places,
                         const glm::dvec3& touched_m);
 
-// The ladder of ten powers with the rung where one is, the gap below the last atom, and the apex above the picture.
+// Ladder of powers of ten with the current rung, the gap below the last atom, and the apex above the picture.
 void add_journey_labels(const Journey& journey, const WallPlaces& places, const Phrases& phrases, double orders,
                         render::FrameState& frame);
 
-// Above the companion, at its depth, and beside the ruler.
+// Label above the companion, at its depth, and beside the ruler.
 void add_companion_label(const Journey::Companion& companion, const glm::dmat4& room_from_journey,
                          const WallPlaces& places, const Phrases& phrases, render::FrameState& frame);
 
-// The numbers at the ends of the colour scale, in metres as measured, and a measured sample's exaggeration.
+// Numbers at the ends of the colour scale, in metres as measured, and a measured sample's exaggeration.
 void add_height_labels(const WallPlaces& places, const Phrases& phrases, double range_m,
                        std::optional<double> exaggeration, render::FrameState& frame);
 

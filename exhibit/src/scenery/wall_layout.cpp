@@ -14,12 +14,12 @@ using glm::dvec3;
 
 namespace {
 
-// Highest points of laser and photodiode, of which the banner may hide little.
+// Height of laser and photodiode of which the banner may hide little.
 constexpr double kTop = 0.3 * kPhotodiodeHalfSize;
 constexpr std::array kTops{dvec3(kLaser.x, kLaser.y + kTop, kLaser.z),
                            dvec3(kPhotodiode.x, kPhotodiode.y + kTop, kPhotodiode.z)};
 
-// The largest scale for each arrangement, whatever the viewer sees from above.
+// Largest scale for each arrangement, whatever the viewer sees from above.
 WallShape largest_shape(const StagePlace& stage, std::size_t swatches) {
   const double width_m = stage.main.width_m(), height_m = stage.main.height_m();
   if (stage.left && stage.right) {

@@ -121,7 +121,7 @@ render::PanelPlacement WallPlaces::in_scene(double left, double bottom, double w
   return in_frame(room_from_layout_, left, bottom, width, height);
 }
 
-// The data panel's place without a strip at its left.
+// Place of the data panel, with a strip of this width free on its left.
 render::PanelPlacement WallPlaces::right_of_data(double inset) const {
   render::PanelPlacement panel = data_placement_;
   const dvec3 step = inset * shape_.unit_m * glm::normalize(panel.right_m);
@@ -186,7 +186,7 @@ void WallPlaces::lay_out_cue(const StagePlace& stage) {
   }
 }
 
-// Left of all swatches that seem to be at its height, as far as the wall leaves room for the numbers.
+// Places the bar left of all swatches that seem to be at its height, as far as the wall leaves room for the numbers.
 void WallPlaces::lay_out_height_bar(const StagePlace& stage, std::size_t swatches) {
   const dvec3 eye(glm::inverse(room_from_layout_) * glm::dvec4(stage.viewer_m, 1.0));
   const double lowest = kHeightBarBottom - 0.5 * kHeightBarTextHeight,
@@ -218,7 +218,7 @@ double WallPlaces::unit_m() const { return glm::length(dvec3(room_from_layout_[0
 
 glm::dvec3 WallPlaces::wand_grip_m() const { return dvec3(room_from_layout_ * glm::dvec4(wand_grip_, 1.0)); }
 
-// The finale's large plot replaces the instrument.
+// Placement of the finale's large plot, which replaces the instrument.
 render::PanelPlacement WallPlaces::finale() const {
   if (shape_.arrangement == Arrangement::Beside) {
     const double width = std::min(kPanelInnerEdge + half_width_ - 2.0 * kPanelMargin, kWidestPlot);

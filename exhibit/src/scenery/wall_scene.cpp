@@ -28,7 +28,7 @@ namespace {
 using glm::dmat4;
 using glm::dvec3;
 
-// The stroke that suits a sample of this width: the material's own, unless the sample would then cover the wall or be
+// Stroke that suits a sample of this width: the material's own, unless the sample would then cover the wall or be
 // a stamp on it.
 double stroke_of_sample(double width_m, double stroke_m) {
   return std::clamp(stroke_m, width_m / kWidestSample, width_m / kNarrowestSample);
@@ -37,7 +37,7 @@ double stroke_of_sample(double width_m, double stroke_m) {
 // Place of the colour scale of heights: seen beside its numbers, which are in the wall's plane, but so near to the eye
 // that the floor does not hide its lower part.
 dmat4 height_bar_place(double left, double floor_y, const dvec3& eye) {
-  constexpr double kAboveFloor = 0.01, kNearest = 0.25;  // share of the way to the eye
+  constexpr double kAboveFloor = 0.01, kNearest = 0.25;  // fraction of the way to the eye
   const dvec3 foot(left, kHeightBarBottom, 0.0);
   const double nearer = std::clamp((floor_y + kAboveFloor - foot.y) / std::max(eye.y - foot.y, 0.1), 0.0, kNearest);
   return glm::scale(glm::translate(dmat4(1.0), glm::mix(foot, eye, nearer)), dvec3(kHeightBarHeight * (1.0 - nearer)));
@@ -134,7 +134,7 @@ core::Result<WallScene> WallScene::load(const std::string& assets_dir, const sce
   return w;
 }
 
-// One mesh for all materials, in metres as measured. Each material's node contains its scale.
+// Adds one mesh for all materials, in metres as measured. Each material's node contains its scale.
 void WallScene::add_topography(ModelBuilder& build, const std::string& sample, const UserModels& own,
                                MaterialLook& look) {
   const TopographyModel& model = *own.topography;
@@ -158,7 +158,7 @@ void WallScene::add_topography(ModelBuilder& build, const std::string& sample, c
   look.thickness_m = -bounds_below(scene_, look.sample).low.z;
 }
 
-// Materials with the same model share its surface. Surfaces beyond the servo's capacity are felt as planes.
+// Index of a model's surface, shared by its materials. Surfaces beyond the servo's capacity are felt as planes.
 std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIndex surface) {
   const auto known = std::find(surface_models_.begin(), surface_models_.end(), model);
   if (known != surface_models_.end()) return static_cast<std::uint32_t>(known - surface_models_.begin());
@@ -170,7 +170,7 @@ std::uint32_t WallScene::height_field_of(const std::string& model, scene::NodeIn
 }
 
 double WallScene::parameter_factor(std::size_t material, double release_z_m) const {
-  if (particles_) return 1.0;  // their size sets the scale, whatever the tip's parameters
+  if (particles_) return 1.0;  // scale set by the particles' size, whatever the tip's parameters
   return release_z_m > 0.0 ? release_z_m * kStrokeOfZjoc / looks_[material].stroke_m : 1.0;
 }
 

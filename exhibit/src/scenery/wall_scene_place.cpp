@@ -54,13 +54,13 @@ void place_light(const WallPlaces& places, render::FrameState& frame) {
 
 constexpr double kLeastBelow = 0.01;  // least depth of the level sample below marks, in sides of their square
 
-// After a pull-off. Particles have no such height.
+// True after a pull-off; never with particles, which have no such height.
 bool shows_ghost(const WallState& state, bool with_particles) {
   return state.centerpiece == Centerpiece::Instrument && state.material && !with_particles && state.cue &&
          state.cue->kind == physics::EventKind::JumpOffContact;
 }
 
-// Of a lever that taps, unless its swing is too small to be seen.
+// True in tapping mode, unless the swing is too small to be seen.
 bool shows_swing(const WallState& state, double layout_per_m) {
   return state.centerpiece == Centerpiece::Instrument && state.material &&
          state.swing.amplitude_m * layout_per_m > kSmallestSwing;
@@ -123,7 +123,7 @@ std::vector<dmat4> WallScene::local_transforms(const WallState& state, std::vect
   return local;
 }
 
-// The sample at its true proportions, with the stage below it. Its size does not depend on the tip's parameters: the
+// Places the sample in its true proportions, above the stage. Its size does not depend on the tip's parameters: the
 // ruler and the scale line do. Without a sample, the stage is below the first one's place.
 void WallScene::place_sample(const WallState& state, std::vector<dmat4>& local) const {
   const MaterialLook& look = looks_[state.material.value_or(0)];
@@ -220,7 +220,7 @@ void WallScene::update(const WallState& state, render::FrameState& frame) const 
   }
 }
 
-// On the slanted face of each swatch's base.
+// Places the labels on the slanted face of each swatch's base.
 void WallScene::place_swatch_labels(const WallState& state, render::FrameState& frame) const {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     const dmat4& room_from_label = frame.room_from_node[looks_[i].label];
@@ -240,7 +240,7 @@ Analogy::Heights WallScene::analogy_heights(const WallState& state) const {
   return {.poles = (state.tip.z_m - state.tip.deflection_m) * per_m, .deflection = state.tip.deflection_m * per_m};
 }
 
-// Next to the parts, in the wall's plane; the plate's label is on its front.
+// Places the labels next to the parts, in the wall's plane; the plate's label is on its front.
 void WallScene::place_analogy_labels(const WallState& state, render::FrameState& frame) const {
   const Analogy::Heights heights = analogy_heights(state);
   const auto beside = [&](double height) {
@@ -266,7 +266,7 @@ double WallScene::ruler_m_per_unit(const WallState& state) const {
   return 1.0 / (state.centerpiece == Centerpiece::Analogy ? kAnalogyScale * navigated : navigated);
 }
 
-// The ruler's number, and the event at the contact of tip or magnet and sample.
+// Places the ruler's number, and the event at the contact of tip or magnet and sample.
 void WallScene::place_marks(const WallState& state, render::FrameState& frame) const {
   frame.contact = {};
   const double m_per_unit = ruler_m_per_unit(state);

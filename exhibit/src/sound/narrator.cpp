@@ -9,7 +9,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// These events contain no name or figure, only the state of the force.
+// True for events with no name or figure, only the state of the force.
 bool concerns_force(HeardEvent event) {
   return event == HeardEvent::ForceOn || event == HeardEvent::ForceOff || event == HeardEvent::Fault ||
          event == HeardEvent::TurnOnReady;
@@ -69,7 +69,7 @@ void Narrator::follow(const scene::TipState& tip, const Step& step) {
   if (std::exchange(guidance_, step.guidance) != step.guidance) say_({step.guidance, SpeechKind::Guidance});
 }
 
-// Lines come up to ten times a second, and the guidance names the scan: only the first explains its sound.
+// Reports a scan's lines, up to ten a second. The guidance names the scan: only the first line explains its sound.
 void Narrator::follow_scan(std::uint32_t lines, std::int32_t material) {
   const std::uint32_t before = std::exchange(scan_lines_, lines);
   if (before >= lines) return;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kNoteOfA = 69, kHzOfA = 440, kNotesInOctave = 12;
 constexpr double kLevelWithoutForce = 0.2;
-constexpr double kFarSide = 0.75;  // neither ear is ever silent
+constexpr double kFarSide = 0.75;  // farthest position, at which neither ear is silent
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file of the exhibit that includes SDL.
+// Interface to SDL, which no other file of the exhibit includes.
 #include <SDL2/SDL.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -42,7 +42,7 @@ core::Error no_sound(const std::string& why) {
 void say_nothing(const char* /*file*/, int /*line*/, const char* /*function*/, int /*error*/, const char* /*format*/,
                  ...) {}
 
-// Without a sound card, ALSA, which SDL loads, would write its own lines to stderr in addition to our line.
+// Keeps ALSA, which SDL loads, from writing lines about a missing sound card to stderr in addition to our line.
 void quieten_alsa() {
   using Handler = void (*)(const char* file, int line, const char* function, int error, const char* format, ...);
   int (*set_handler)(Handler) = nullptr;
@@ -52,7 +52,7 @@ void quieten_alsa() {
   }
 }
 
-// Loaded once and never unloaded, because SDL's threads may outlast a call.
+// Loads the library once, and never unloads it, because SDL's threads may outlast a call.
 core::Result<SdlAudio> load_audio() {
   void* const library = ::dlopen(kSdl, RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) return tl::unexpected(no_sound(fmt::format("{} cannot be loaded", kSdl)));

@@ -8,7 +8,7 @@ namespace afm::exhibit {
 namespace {
 
 constexpr double kToneUnderVoice = 0.3;
-constexpr float kVoiceStep = 1.0F / (0.004F * kSoundRateHz);  // fades an interrupted phrase out within 4 ms
+constexpr float kVoiceStep = 1.0F / (0.004F * kSoundRateHz);  // step that fades an interrupted phrase out within 4 ms
 
 }  // namespace
 
@@ -96,7 +96,7 @@ float SoundMixer::next_of_voice() noexcept {
   const bool stale = block_.phrase != wanted;
   voice_gain_ = std::clamp(voice_gain_ + (stale ? -kVoiceStep : kVoiceStep), 0.0F, 1.0F);
   if (stale && voice_gain_ <= 0.0F) {
-    spoken_ = block_.count;  // skips the rest of the interrupted phrase
+    spoken_ = block_.count;  // rest of the interrupted phrase skipped
     return 0.0F;
   }
   return voice_gain_ * block_.samples[spoken_++];

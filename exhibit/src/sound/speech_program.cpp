@@ -22,7 +22,7 @@ namespace afm::exhibit {
 namespace {
 
 constexpr int kPollMs = 5;
-constexpr int kGraceMs = 100;  // after it has closed its output
+constexpr int kGraceMs = 100;  // time allowed after the program has closed its output
 constexpr const char* kNowhere = "/dev/null";
 
 core::Error speech_error(const std::string& path, const std::string& what) {

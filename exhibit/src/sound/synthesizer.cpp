@@ -18,7 +18,7 @@ constexpr double kOctaveShare = 0.5;  // amplitude of the octave at full edge
 constexpr double kFollowS = 0.004;
 constexpr double kAttackS = 0.005;
 constexpr double kKnee = 0.6;
-constexpr double kHissBand = 3.0;  // random values in a period of the tone
+constexpr double kHissBand = 3.0;  // number of random values in a period of the tone
 
 // One period with its octave, no louder than a pure tone.
 double wave(double phase, double edge) noexcept {
@@ -51,7 +51,7 @@ double rise(double time_s, double length_s) {
   return 0.5 - 0.5 * std::cos(std::numbers::pi * std::clamp(time_s / length_s, 0.0, 1.0));
 }
 
-// Between two random numbers of xorshift32 (Marsaglia, J. Stat. Softw. 8 (2003) 14), always the same ones.
+// Value between two random numbers of xorshift32 (Marsaglia, J. Stat. Softw. 8 (2003) 14), always the same sequence.
 double Synthesizer::Noise::next(double share) noexcept {
   for (along += share; along >= 1.0; along -= 1.0) {
     state ^= state << 13U;
@@ -65,7 +65,7 @@ double Synthesizer::Noise::next(double share) noexcept {
 void Synthesizer::Followed::step() noexcept { now += (wanted - now) / (kFollowS * kSoundRateHz); }
 
 void Synthesizer::set_tone(std::int64_t at, const Tone& tone) noexcept {
-  if (point_count_ == kPoints) {  // not read for a long time: drops the oldest, which is past
+  if (point_count_ == kPoints) {  // full queue, not read for a long time: the oldest point, which is past, is dropped
     from_ = points_[first_point_];
     first_point_ = (first_point_ + 1) % kPoints;
     --point_count_;

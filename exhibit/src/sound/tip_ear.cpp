@@ -11,7 +11,7 @@ namespace afm::exhibit {
 
 namespace {
 
-enum class ForceOf { Nothing, Before, After };  // side of the event's force that is heard
+enum class ForceOf { Nothing, Before, After };  // side of the event whose force is heard
 
 struct EventRow {
   physics::EventKind kind;
@@ -88,7 +88,7 @@ std::optional<HeardEvent> TipEar::change_of_force(scene::ServoState state) {
 
 bool TipEar::touches(const scene::TipSample& sample) {
   const bool pushed = sample.tip.force_n > 0.0;
-  const bool taps = sample.swing.amplitude_m > 0.0;  // touches in every swing
+  const bool taps = sample.swing.amplitude_m > 0.0;  // true in tapping mode, which touches in every swing
   const bool felt = is_audible(sample) && !taps;
   // under a law without a pull, the push begins at contact
   if (!felt || sample.phase == physics::Phase::Free) may_touch_ = felt && !pushed;

@@ -31,7 +31,7 @@ std::uint32_t get(std::string_view bytes, std::size_t at, std::size_t size) {
   return value;
 }
 
-// Names the program in the chunk that players read it from.
+// Chunk with the name of the program, as read by players.
 std::string info_chunk() {
   std::string name = core::written_by();
   name.resize(name.size() + 2 - name.size() % 2);  // zero at the end, even length

@@ -32,7 +32,7 @@ void CycleCurve::add(const scene::TipSample& sample) {
 }
 
 void CycleCurve::add(const scene::TipEvent& event) {
-  if (!physics::is_jump(event.kind)) return;  // the forces of the others are lateral
+  if (!physics::is_jump(event.kind)) return;  // events with lateral forces, not drawn
   add_point({.place_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_before_n * curves::kNnPerN});
   add_point({.place_nm = event.z_m * curves::kNmPerM, .force_nn = event.force_after_n * curves::kNnPerN});
 }

@@ -10,7 +10,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Millimetres of the hand are comparable for all materials: a stroke is 50 of them.
+// Turning distance of the hand; its millimetres are comparable for all materials, since a stroke is 50 mm.
 constexpr double kHandTurnM = 0.001;
 constexpr double kKeptM = 0.00005;
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kNearRadius = 0.4, kFarRadius = 4.0;
 constexpr glm::vec3 kInColor(0.25F, 1.1F, 2.0F), kOffColor(2.2F, 0.75F, 0.05F);
 
-// The force that the paper gives for the jump: F_attr or F_ad. Of a lever that taps: the mean force after it.
+// Force that the paper gives for the jump: F_attr or F_ad; in tapping mode, the mean force after it.
 float force_of(const scene::TipEvent& event) {
   const bool before = event.kind == physics::EventKind::JumpOffContact;
   return static_cast<float>(before ? event.force_before_n : event.force_after_n);

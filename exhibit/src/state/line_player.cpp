@@ -18,7 +18,7 @@ void LinePlayer::begin(physics::ScanLine line) {
 void LinePlayer::advance(double seconds) { seconds_ = std::min(kSeconds, seconds_ + seconds); }
 
 LinePlayer::Place LinePlayer::place() const {
-  const double share = 2.0 * seconds_ / kSeconds;  // one at the right edge
+  const double share = 2.0 * seconds_ / kSeconds;  // 1 at the right edge
   const bool returning = share > 1.0;
   const double along = returning ? 2.0 - share : share;
   const physics::ScanTrack& track = returning ? line_.retrace : line_.trace;

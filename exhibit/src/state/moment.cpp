@@ -9,7 +9,7 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::int64_t kStrobePeriodNs = 1'000'000'000;  // a swing of the stroboscope
+constexpr std::int64_t kStrobePeriodNs = 1'000'000'000;  // period of the stroboscope's swing
 constexpr double kTurnM = 0.2e-9;                        // rise of Z above its minimum that counts as retracting
 
 // Fields common to the newest state and a recorded sample.

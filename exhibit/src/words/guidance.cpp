@@ -11,9 +11,9 @@ namespace afm::exhibit {
 
 namespace {
 
-constexpr std::size_t kControlsOfHand = 3;  // up, down and Turn-On
+constexpr std::size_t kControlsOfHand = 3;  // number of controls: up, down and Turn-On
 
-// Each run of phrases has a row per enumerator.
+// check that each run of phrases has a row per enumerator
 static_assert(after(Phrase::ChooseSample, core::kEnumerators<Hint>.size()) == Phrase::ForceOff);
 static_assert(after(Phrase::ForceOff, scene::kFaultTexts.size()) == Phrase::MouseUp);
 static_assert(after(Phrase::MouseUp, kControlsOfHand* core::kEnumerators<HandControls>.size()) == Phrase::MouseChoose);
@@ -26,18 +26,18 @@ static_assert([] {
   return true;
 }());
 
-// Returns whether the tip is high enough for the servo to accept Turn-On.
+// True if the tip is high enough for the servo to accept Turn-On.
 bool is_lifted(const scene::TipState& tip) {
   return tip.phase == physics::Phase::Free && (tip.tip.z_m - tip.active.release_z_m) * tip.active.scale.hand_m_per_m >=
                                                   haptics::SafetyGovernor::kArmingMarginM;
 }
 
-// Steps with force where the tip pushes particles.
+// Steps with force if the tip pushes particles.
 Hint step_among_particles(const scene::TipState& tip) {
   return tip.phase == physics::Phase::Attached ? Hint::PushAside : Hint::GoBeside;
 }
 
-// Uses the steps done instead of the hand's direction, which reverses with every tremor.
+// Step from the steps done instead of the hand's direction, which reverses with every tremor.
 Hint step_with_force(const scene::TipState& tip, const StepsDone& done) {
   if (tip.phase == physics::Phase::Attached) {
     if (!done.pressed) return Hint::PressOn;

@@ -5,7 +5,7 @@ namespace afm::exhibit {
 
 namespace {
 
-// Shown at once, and only while they are true, because they concern the force.
+// True for hints about the force, which are shown at once, and only while they are true.
 bool concerns_safety(Hint hint) {
   return hint == Hint::ComingOn || hint == Hint::GoingOff || hint == Hint::PressToGoOn || hint == Hint::ServoEnded;
 }

@@ -11,7 +11,7 @@
 // Conversion of a frame's inputs to the messages of a wall's machines and back.
 namespace afm::exhibit {
 
-// Fills the fields that the moment contains; `blank`: nothing is shown.
+// Stores the fields that the moment contains; `blank`: no picture.
 void set_moment(const Moment& moment, const scene::TipState& tip, const std::string& caption, bool blank,
                 cluster::FrameMessage& message);
 
@@ -19,7 +19,7 @@ void set_moment(const Moment& moment, const scene::TipState& tip, const std::str
 Moment moment_of(const cluster::FrameMessage& message);
 std::string caption_of(const cluster::FrameMessage& message);
 
-// The tip's state as far as the wall shows it.
+// State of the tip, as far as the wall shows it.
 scene::TipState tip_of(const cluster::FrameMessage& message);
 
 void set_depth(const DepthReport& depth, cluster::ShownView& view);

@@ -8,9 +8,9 @@
 
 namespace afm::exhibit {
 
-// Machines of a wall that show nothing new.
+// Machines of a wall whose picture no longer changes.
 struct AbsentMachines {
-  std::uint64_t nodes = 0;  // one bit per node, as cluster::FrameMessage::missing
+  std::uint64_t nodes = 0;  // one bit per node, as in cluster::FrameMessage::missing
   bool master = false;
 };
 

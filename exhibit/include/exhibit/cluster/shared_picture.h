@@ -16,10 +16,10 @@ namespace afm::exhibit {
 struct ParticlesNow;
 struct WallHistory;
 
-// Picture of the particles for the other machines of a wall; level 0 if there is none.
+// Picture of the particles, for the other machines of a wall; level 0 if there is none.
 cluster::PictureRecord record_of(const ParticlesNow& now);
 
-// The same picture on another machine, whose set has so many particles; nothing if there is none.
+// Same picture on another machine, whose set has `count` particles; empty if there is none.
 std::optional<servo::PictureNow> picture_of(const WallHistory& history, std::size_t count);
 
 }  // namespace afm::exhibit

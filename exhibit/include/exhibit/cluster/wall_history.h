@@ -21,15 +21,15 @@ struct WallHistory {
   CycleHistory cycles;
   FrictionHistory friction;
   std::vector<cluster::EditRecord> edits;  // newest edit of each edited material
-  std::vector<cluster::ScanRecord> scan;   // start and changes of the current scan; empty: none is shown
+  std::vector<cluster::ScanRecord> scan;   // start and changes of the current scan; empty: no scan
   std::vector<scene::ParticlePage> pages;  // poses of the particles
-  std::vector<std::uint8_t> known;         // servo::Known, one for each pose
+  std::vector<std::uint8_t> known;         // servo::Known values, one for each pose
   scene::TipPush push;
   scene::TaskScore score;
   scene::PlannedPush plan;
   cluster::PictureRecord picture;
-  std::vector<scene::MarkTile> tiles;  // empty: no tip has left a mark
-  std::uint64_t marks = 0;             // number of rows of marks that it includes
+  std::vector<scene::MarkTile> tiles;  // tiles of marks; empty: no marks yet
+  std::uint64_t marks = 0;             // number of rows of marks included
 
   explicit WallHistory(std::size_t materials) : cycles(materials) {}
 
@@ -45,11 +45,11 @@ std::vector<std::byte> save_history(std::uint64_t journal, const CycleHistory& c
                                     std::span<const std::uint8_t> known = {},
                                     const cluster::PictureRecord& picture = {});
 
-// Rows of the newer tiles that differ, at most so many; `before` has as many tiles, or none, which are then bare.
+// Rows of the newer tiles that differ, at most `most`; `before` has as many tiles, or none, which means all are level.
 std::vector<cluster::MarkRecord> changed_rows(std::span<const scene::MarkTile> before,
                                               std::span<const scene::MarkTile> now, std::size_t most);
 
-// Puts a valid row into its tile, of kMarkTiles, which are made if there are none.
+// Stores a valid row in its tile; creates the kMarkTiles tiles if there are none.
 void put_row(const cluster::MarkRecord& row, std::vector<scene::MarkTile>& tiles);
 
 // Conversion of a scan to its record and back.

@@ -20,13 +20,13 @@ namespace afm::exhibit {
 
 // All inputs that a node needs before the first frame. The files are included as texts, so the node need not have them.
 struct WallModel {
-  std::uint64_t build = 0;                    // digest of the program: another one may build other frames
-  std::uint64_t scene = 0;                    // digest of the scene, which differs for other models
+  std::uint64_t build = 0;                    // digest of the program; another build may produce other frames
+  std::uint64_t scene = 0;                    // digest of the scene; it differs for other models
   std::string wall;                           // text of the wall file
   std::string guidance;                       // text of the user's phrase file; empty: none
   std::string materials;                      // text of the user's material file; empty: none
   std::map<std::string, std::string> meshes;  // texts of the outputs' meshes by name, relative to the wall file
-  ExhibitFiles files;                         // without these three files and the assets
+  ExhibitFiles files;                         // all other files; without these three texts and the assets
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   curves::TappedHand tapping;
   PictureOptions picture;  // mode and order of the eyes
@@ -44,7 +44,7 @@ bool lies_beside(const std::string& name);
 // Writes the texts into `folder` and returns the wall's files. A user's models keep their names on the master.
 core::Result<ExhibitFiles> unpack(const WallModel& model, const std::string& assets_dir, const std::string& folder);
 
-// Digest of a program's file.
+// Digest of a program's executable file.
 core::Result<std::uint64_t> build_digest(const std::string& program);
 
 }  // namespace afm::exhibit

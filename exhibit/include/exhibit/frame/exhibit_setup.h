@@ -34,23 +34,23 @@ struct ParticleSet;
 
 namespace afm::exhibit {
 
-// English, and the language of the wall: its phrase file with the user's replacements.
+// English phrases, and those of the wall's language: its phrase file with the user's replacements.
 struct LoadedPhrases {
   Phrases english, wall;
 };
 core::Result<LoadedPhrases> load_phrases(const ExhibitFiles& files);
 
-// Everything that is loaded before the exhibit starts.
+// Data loaded before the exhibit starts.
 struct Stage {
   scene::MaterialLibrary materials;
   scene::Wall wall;
   scene::Screen screen;  // screen with the scene: StagePlace::main
   std::array<scene::EyeView, 2> eyes;
   WallScene wall_scene;
-  Phrases english;                                      // language of the log, for staff and bug reports
-  std::shared_ptr<const scene::ParticleSet> particles;  // null: none
+  Phrases english;                                      // phrases of the log, for staff and bug reports
+  std::shared_ptr<const scene::ParticleSet> particles;  // particles on the wall; null: none
   std::shared_ptr<const curves::SampleModel>
-      pixel;  // first pixel of the force map, whose material has its name; null: none
+      pixel;  // first pixel of the force map, whose material has the map's name; null: none
 
   const Phrases& phrases() const { return wall_scene.phrases(); }
 
@@ -67,10 +67,10 @@ struct Stage {
   glm::uvec2 eye_size_within(scene::StereoMode mode, glm::uvec2 window_px) const;
 };
 
-// A force map is read whole: that of a large one takes minutes, with progress in the log; Failed if it is interrupted.
+// Reads a whole force map: a large one takes minutes, with progress in the log; Failed if interrupted.
 core::Result<Stage> load_exhibit(const ExhibitFiles& files);
 
-// The samples of the stage as the servo needs them, with the surfaces that the stage draws; in tapping mode under the
+// Samples of the stage for the servo, with the surfaces that the stage draws; in tapping mode under the
 // lever of `tapping` and without friction.
 core::Result<std::vector<curves::SampleModel>> felt_samples(const Stage& stage, physics::FrictionLaw friction,
                                                             const curves::TappedHand* tapping = nullptr);

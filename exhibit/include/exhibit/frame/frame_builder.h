@@ -32,16 +32,16 @@ class FrameBuilder {
   render::FrameState build(const Moment& moment) const;
 
  private:
-  // Sample that was shown last in false colours.
+  // Sample last shown in false colours.
   struct ColouredSample {
     std::size_t material = 0;
-    double release_z_m = 0;  // as in WallState: its size
+    double release_z_m = 0;  // size of the sample, as in WallState
     HeightRelief relief;
   };
 
-  // The same for the marks of a soft sample.
+  // Same for the marks of a soft sample.
   struct ShownMarks {
-    std::uint64_t marks = 0;  // as in ParticlesNow
+    std::uint64_t marks = 0;  // counter of ParticlesNow at that time
     HeightRelief relief;
   };
 
@@ -58,7 +58,7 @@ class FrameBuilder {
   mutable std::optional<ShownMarks> marks_;
 };
 
-// Colours of the curves, by the material's index in its file, which differ without red, green or blue vision, too.
+// Colours of the curves, by the material's index in its file; also distinct without red, green or blue vision.
 glm::vec3 curve_color(std::size_t material);
 
 }  // namespace afm::exhibit

@@ -16,7 +16,7 @@ namespace afm::exhibit {
 
 struct Stage;
 
-// The file of the map of this stage, for its sessions, and how it was read; empty: no map.
+// File of this stage's map, for its sessions, and the way it was read; empty: no map.
 // `files` are those of the stage. Reads the whole file, 1 GB in about a second: BadInputFile if it cannot be read.
 core::Result<std::optional<servo::RecordedForceMap>> recorded_map_of(const Stage& stage, const ExhibitFiles& files);
 

@@ -31,9 +31,9 @@ scene::HeadPose head_of(const scene::Pose& pose);
 // A moment of the live wall, read from its session.
 struct RecordedMoment {
   const servo::WallFrame* frame = nullptr;  // frame of the session
-  std::vector<CycleCurve> curves;           // one per material, as at that time
+  std::vector<CycleCurve> curves;           // curves at that time, one per material
   FrictionHistory friction;
-  Moment moment;  // without the curves
+  Moment moment;  // moment without the curves
 };
 
 // The frame on the wall at `time_ns`, or the first one after it. The session must contain frames. `materials` are the

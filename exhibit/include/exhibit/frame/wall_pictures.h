@@ -19,19 +19,19 @@ namespace afm::exhibit {
 struct PictureOptions {
   std::optional<scene::StereoMode> mode{};            // replaces the outputs' modes
   scene::EyeOrder order = scene::EyeOrder::Straight;  // Swapped: exchanges the eyes of every output
-  std::optional<double> ipd_m{};                      // replaces the viewer's
+  std::optional<double> ipd_m{};                      // replaces the viewer's eye distance
   std::optional<glm::uvec2> size_px{};  // size of the whole picture; replaces the outputs' sizes and eye_width
   bool mesh_lines = false;              // shows the lines of warp meshes
   std::uint32_t eye_width = 960;        // used if neither a size nor an output's rectangle is given
-  std::string gpu{};                    // graphics device that draws, as render::ContextOptions names it
+  std::string gpu{};                    // graphics device for drawing, as named in render::ContextOptions
 };
 
 // One output's part of a wall's picture.
 struct OutputPicture {
   std::string name;
   scene::Screen screen;
-  scene::StereoMode mode = scene::StereoMode::Mono;  // from the wall file or the user
-  render::Composition composition;                   // layout for that mode; in mode dual, this output's eye
+  scene::StereoMode mode = scene::StereoMode::Mono;  // mode given in the wall file or by the user
+  render::Composition composition;                   // layout for that mode; in mode dual, only this output's eye
   scene::PixelRect rect;                             // place in the whole picture
 };
 
@@ -40,7 +40,7 @@ struct WallPlan {
   std::vector<OutputPicture> outputs;
 };
 
-// Puts the wall's outputs into one picture, as on the desktop, with those that fill a monitor on the right. A wall
+// Arranges the wall's outputs in one picture, as on the desktop, with those that fill a monitor on the right. A wall
 // without outputs gets one for each screen, side by side. WrongUsage if the mode cannot have the size.
 core::Result<WallPlan> plan_wall(const scene::Wall& wall, const PictureOptions& options);
 

@@ -15,7 +15,7 @@ namespace afm::exhibit {
 // Discarded when the material or its parameters change. Memory is bounded. One thread.
 class FrictionHistory {
  public:
-  static constexpr std::size_t kMostPoints = 30'000;  // limit for one contact; then drops the oldest third
+  static constexpr std::size_t kMostPoints = 30'000;  // limit for one contact; beyond it the oldest third is dropped
 
   void add(const scene::TipSample& sample);
 
@@ -23,7 +23,7 @@ class FrictionHistory {
   std::span<const physics::SidewaysPoint> earlier() const { return earlier_; }
   bool attached() const { return attached_; }
 
-  // All of its state, for exhibit/cluster/wall_history.h.
+  // All of its state, for storage by exhibit/cluster/wall_history.h.
   template <class History, class Visit>
   static void visit_state(History& history, Visit&& visit) {
     visit(history.contact_);

@@ -17,13 +17,13 @@ namespace afm::exhibit {
 
 // Destination of a lesson's results, and details for its JSON.
 struct DataSetEntry {
-  std::string folder;  // DIR in the manual
-  std::string code;    // six capital letters
+  std::string folder;  // path of the study's folder
+  std::string code;    // participant's code, six capital letters
   std::string device, wall;
   std::uint64_t seed = 0;
-  std::string age_band{};              // one of kAgeBands; empty: not given
+  std::string age_band{};              // word of kAgeBands; empty: not given
   std::string observer{};              // JSON object describing a simulated participant; empty for a person
-  std::string samples{};               // samples_json(); empty: not given
+  std::string samples{};               // text of samples_json(); empty: not given
   std::optional<std::size_t> order{};  // row of the Williams design used for the lesson; empty: the next free one
   std::optional<std::int64_t>
       day{};  // date of a person's lesson, in days since 1970; stored only as the distance to the study's first day
@@ -57,9 +57,9 @@ class DataSet {
   // Records the lesson's end in participants.tsv.
   core::Result<void> finish(LessonEnd end);
 
-  std::size_t order() const { return order_; }  // see participants.tsv
+  std::size_t order() const { return order_; }  // row of the Williams design, as in participants.tsv
 
-  // sub-CODE
+  // Name of the participant's folder: sub-CODE.
   const std::string& participant_folder() const { return participant_folder_; }
 
  private:

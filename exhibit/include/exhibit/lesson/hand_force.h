@@ -5,16 +5,16 @@
 
 namespace afm::exhibit {
 
-// Force on the hand, as far as a lesson needs to know it.
+// Force on the hand, in the detail that a lesson needs.
 enum class HandForce {
   None,
-  Changing,  // comes on or fades out
-  Reduced,   // on, but weaker than set: the motors are warm
+  Changing,  // force rising or fading
+  Reduced,   // weaker force than set, because the motors are warm
   Full
 };
 
-// `share`: share of the set force that is left to the hand. Below kFullShare a person can feel the difference: the just
-// noticeable one of forces is 7 % (Pang, Tan and Durlach 1991).
+// `share`: fraction of the set force that remains on the hand. From kFullShare down a person can feel the difference:
+// the just noticeable difference of forces is 7 % (Pang, Tan and Durlach 1991).
 inline constexpr double kFullShare = 0.95;
 constexpr HandForce hand_force(scene::ServoState state, double share) {
   switch (state) {

@@ -29,9 +29,9 @@ struct InstructorState {
   int planned_min = 0;
   std::size_t right = 0, judged = 0;  // number of counted trials that have a right answer
   scene::ServoState hand = scene::ServoState::Disarmed;
-  bool stopped = false;  // as in Moment
+  bool stopped = false;  // true: stopped, as in Moment
   bool hand_off = false;
-  bool stop_asked = false;  // Stop was pressed once
+  bool stop_asked = false;  // true: Stop pressed once, awaiting confirmation
 };
 
 // Returns whether the action has an effect at this prompt.

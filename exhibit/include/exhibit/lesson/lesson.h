@@ -62,19 +62,19 @@ enum class DistanceCue { Kept, Roved };
 struct ThresholdPlan {
   StaircaseRule rule = StaircaseRule::Weighted;
   DistanceCue distance = DistanceCue::Kept;
-  double rove = 0;     // Roved: the stiffness is divided or multiplied by up to 1 + rove
+  double rove = 0;     // Roved only: largest change of the stiffness, which is divided or multiplied by up to 1 + rove
   double start = 0.5;  // w of the first trial; the stronger F_ad is 1 + w times the standard's
   double least = 0.01, most = 1.0;
   double step = 1.25;  // divisor of w after a right answer; for 1-up-3-down, the final one
 };
 
-// Events that end a step Push: all but a loss once the tip has been lifted for scene::PatternTask::kRestNs.
+// Events that end a step Push, once the tip has been lifted for scene::PatternTask::kRestNs; a loss ends it at once.
 // Line and Threshold are done without the picture (scene::BlindTask).
 enum class PushUntil { Moved, Target, Pattern, Lost, Line, Threshold };
 struct PushUntilRow {
   PushUntil until;
   std::string_view word, meaning;
-  bool from_targets;  // judged by the distance from targets, or from the line to one
+  bool from_targets;  // true: judged by the distance from targets, or from the line to one
 };
 inline constexpr std::array kPushUntils{
     PushUntilRow{PushUntil::Moved, "moved", "the particle is so far from its start", false},
@@ -89,9 +89,9 @@ constexpr const PushUntilRow& row_of(PushUntil until) { return kPushUntils[core:
 
 struct PushPlan {
   PushUntil until = PushUntil::Pattern;
-  std::size_t particle = 0;  // number in the set, from 0; for all but Pattern
-  std::size_t target = 0;    // the same of a target, for Target and Line
-  double distance_m = 0;     // least way, only with Moved
+  std::size_t particle = 0;  // index of the particle in the set; unused for Pattern
+  std::size_t target = 0;    // index of its target in the set; Target and Line only
+  double distance_m = 0;     // least distance from the start; Moved only
 };
 
 struct LessonStep {
@@ -100,15 +100,15 @@ struct LessonStep {
   LessonText words;
   LessonText hint;  // may be empty
   double hint_after_s = 0;
-  bool each_condition = false;         // repeated under each of the lesson's conditions
+  bool each_condition = false;         // true: repeated under each of the lesson's conditions
   std::vector<std::size_t> materials;  // indices into Lesson::materials
-  int trials = 1;                      // counted ones; for Free, cycles to feel
-  int practice = 0;                    // number before the counted trials
-  bool states = false;                 // Identify: the state of a swing instead of the material
+  int trials = 1;                      // number of counted trials; for Free, number of cycles to feel
+  int practice = 0;                    // number of practice trials before the counted ones
+  bool states = false;                 // true: asks for the state of a swing instead of the material; Identify only
   ThresholdPlan threshold;
   Questionnaire questionnaire = Questionnaire::Paper;
   PushPlan push;
-  // lines of Write, not null there; shared, since a lesson is copied
+  // lines for Write, never null there; shared, since a lesson is copied
   std::shared_ptr<const LinesToWrite> lines;
 };
 
@@ -118,15 +118,15 @@ struct Lesson {
   LessonText title;
   int minutes = 0;  // duration given by the author, 1 to kMostLessonMinutes
   std::vector<std::string> materials;
-  scene::ScaleMode scale = scene::ScaleMode::Fit;  // Particles exactly if there are particles
-  std::string particles;                           // as in ExhibitFiles; empty: none
-  // those particles, all of them spheres, or that soft sample; null: none; shared, since a lesson is copied
+  scene::ScaleMode scale = scene::ScaleMode::Fit;  // scale of the hand; Particles if and only if there are particles
+  std::string particles;                           // name as in ExhibitFiles; empty: none
+  // these particles, all spheres, or this soft sample; null: none; shared, since a lesson is copied
   std::shared_ptr<const scene::ParticleSet> set;
-  // its lever, if that taps; then there are no particles; null: it does not; shared, since a lesson is copied
+  // lever in tapping mode, without particles; null: no tapping; shared, since a lesson is copied
   std::shared_ptr<const curves::TappedHand> tapping;
-  std::vector<Condition> conditions;  // none, or at least two
+  std::vector<Condition> conditions;  // conditions of the study; none, or at least two
   std::vector<LessonStep> steps;
-  std::string digest;  // FNV-1a of the file, its particle file and the user's materials, hexadecimal
+  std::string digest;  // FNV-1a of the file, its particle file and the user's materials, in hexadecimal
 };
 
 inline constexpr int kMostLessonMinutes = 20;  // recommended limit for looking at stereo without a break

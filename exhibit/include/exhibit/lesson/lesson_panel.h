@@ -13,7 +13,7 @@
 
 namespace afm::exhibit {
 
-// A large target to point at. Answer: the answer of that number. A scale has three targets: one step down, the marked
+// A large target to point at. Answer: the answer number `answer`. A scale has three targets: one step down, the marked
 // value, which answers, and one step up.
 struct LessonTarget {
   enum class Action { Answer, Less, Confirm, More, GoOn };
@@ -23,7 +23,7 @@ struct LessonTarget {
   bool marked = false;
 };
 
-// Largest number of answers that are numbered, for keys 1 to 9; more of them form a scale.
+// Largest number of answers numbered for keys 1 to 9; more of them form a scale.
 inline constexpr std::size_t kMostNumberedAnswers = 9;
 
 bool is_scale(const LessonPrompt& prompt);
@@ -35,7 +35,7 @@ std::vector<LessonTarget> lesson_targets(const LessonPrompt& prompt, std::option
 // The prompt as a panel: title, progress, words and hint in lines, and how to answer.
 render::DataPanel lesson_panel(const LessonPrompt& prompt, const Phrases& phrases);
 
-// Adds the text as rows of at most this many letters.
+// Adds the text as rows of at most `letters` letters.
 void add_lines(std::string_view text, std::size_t letters, std::vector<render::DataRow>& rows);
 
 // A panel divided for a number of targets: the words above, the targets below each other.

@@ -15,10 +15,10 @@ class LessonRandom {
  public:
   explicit LessonRandom(std::uint64_t seed) : bits_(seed) {}
 
-  // Uniform, from 0 to below 1.
+  // Uniform random number from 0 to below 1.
   double unit() { return static_cast<double>(bits_() >> 11U) * 0x1p-53; }
 
-  // Uniform, from 0 to below `count`, which must be at least 1 and far below 2^53.
+  // Uniform integer from 0 to below `count`, which must be at least 1 and far below 2^53.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(unit() * static_cast<double>(count)); }
 
   // Shuffles by the method of Fisher and Yates.

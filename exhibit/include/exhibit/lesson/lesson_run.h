@@ -40,7 +40,7 @@ class LessonRun {
   struct Setup {
     std::uint64_t seed = 0;    // seed of orders and stimuli
     std::size_t order = 0;     // row of the Williams design
-    bool ask_consent = false;  // needed with a real participant
+    bool ask_consent = false;  // true for a real participant
   };
 
   // Lesson, samples (lesson_samples(), in that order) and phrases must outlive the object. If consent is required, the
@@ -54,14 +54,14 @@ class LessonRun {
   // The prompt at this time.
   LessonPrompt prompt(double now_s) const;
 
-  // Takes the force on the hand, from the time of the call on; None before the first one. Call in the order of the
+  // Reports the force on the hand from the time of the call onward; None before the first one. Call in the order of the
   // jumps.
   void force_is(HandForce force, double now_s);
 
   // Handles a jump of the tip on the prompt's material and variant.
   void happened(const scene::TipEvent& event, double now_s);
 
-  // A push, or lines to be written: takes the servo's events of particles and samples in order, the events of a tick
+  // Input for a push, or for lines to write: the servo's events of particles and samples in order, the events of a tick
   // before its sample, and after them the newest pages, or the kMarkTiles newest tiles. A push counts only if the full
   // force was on the hand in every tick in which the tip touched a particle, or the soft sample; otherwise it begins
   // again, with all particles at their start, or a level sample.
@@ -74,12 +74,12 @@ class LessonRun {
   void watch_time(double now_s);
 
   void go_on(double now_s);
-  void answer(std::size_t answer, double now_s);  // ignored unless the prompt has this answer
+  void answer(std::size_t answer, double now_s);  // no effect unless the prompt has this answer
   void skip(double now_s);                        // skips the rest of the step
   void reset(double now_s);                       // restarts the running trial
   void stop();
 
-  double elapsed_s(double now_s) const { return now_s - began_s_; }  // since the start, including the consent
+  double elapsed_s(double now_s) const { return now_s - began_s_; }  // seconds since the start, including the consent
   bool consented() const { return consented_; }
   std::optional<LessonEnd> end() const { return end_; }
   // Set if a trial could not be stored, which ends the lesson.
@@ -94,10 +94,10 @@ class LessonRun {
 
   void plan(std::size_t order);
   void begin_task(double now_s);
-  void follow(double now_s);  // after each event or input
+  void follow(double now_s);  // continues after an event or input
   bool offer_break_where_due(double now_s);
   HandForce wanted_force() const;
-  void repeat_trial(double now_s);  // since a cycle or a push was not felt
+  void repeat_trial(double now_s);  // restarts a trial whose cycle or push was not felt
   core::Result<void> keep(TrialRow row);
   void note_result(const TrialRow& row);
 
@@ -117,10 +117,10 @@ class LessonRun {
   bool consented_ = false;
   bool snapped_in_ = false;
   HandForce force_ = HandForce::None;
-  std::optional<HandForce> unfelt_;  // force of the cycle or push that did not count, until one does
-  std::string result_;               // words about the newest blind push
-  std::size_t result_task_ = 0;      // task with which it is said
-  bool counted_ = false;             // a cycle of this step counted
+  std::optional<HandForce> unfelt_;  // force during the cycle or push that did not count; reset by one that counts
+  std::string result_;               // text on the newest blind push
+  std::size_t result_task_ = 0;      // task whose prompt includes that text
+  bool counted_ = false;             // true: at least one cycle of this step counted
   std::optional<LessonEnd> end_;
   std::optional<core::Error> error_;
 };

@@ -23,10 +23,10 @@ core::Result<curves::ContactSetup> lesson_setup(const Lesson& lesson, const scen
 core::Result<std::vector<curves::SampleModel>> lesson_samples(const Lesson& lesson,
                                                               const scene::MaterialLibrary& library);
 
-// Those samples for the JSON of a data set, as text: an object with parameters and sources of each material.
+// Samples of the lesson for the JSON of a data set, as text: an object with parameters and sources of each material.
 core::Result<std::string> samples_json(const Lesson& lesson, const scene::MaterialLibrary& library);
 
-// The same checks for existing samples.
+// Same checks for existing samples.
 core::Result<void> check_samples(const Lesson& lesson, std::span<const curves::SampleModel> samples);
 
 // A threshold's standard with an F_ad 1 + w times as large and with the plan's treatment of the distances. `rove` is

@@ -41,22 +41,22 @@ class LiveLesson {
   const Lesson& lesson() const { return lesson_; }
   bool over() const { return prompt_.wants == LessonPrompt::Wants::Nothing; }
 
-  // Returns whether keys and swatches choose a sample: in free exploration of several.
+  // True if keys and swatches choose a sample: in free exploration of several.
   bool chooses_sample() const;
 
-  void number(std::size_t number);  // keys 1 to 9, from 0
+  void number(std::size_t number);  // handles keys 1 to 9; `number` counts from 0
   void press(const LessonTarget& target);
   void enter();
   void step(int steps);  // moves the mark on a scale
   void skip();
   void try_again();
-  void next();  // instructor: continues as Enter does
-  void stop();  // instructor: ends the lesson
+  void next();  // continues as Enter does; for the instructor
+  void stop();  // ends the lesson; for the instructor
 
   // Call once a frame if a person moves the hand. The height moves the mark; Turn-On answers or continues, unless the
   // lesson waits for a cycle.
   void hand_moved(double height_m, std::uint64_t presses);
-  bool takes_hand() const;  // the hand answers, so it needs no force
+  bool takes_hand() const;  // true: the hand gives answers, so it needs no force
 
   // The marked answer, if the mark has moved since the last call.
   std::optional<std::string> newly_marked();
@@ -86,14 +86,14 @@ class LiveLesson {
   // Follows the force on the hand: call with every sample of the servo, in order with its events.
   void felt(const scene::TipSample& sample, const servo::ServoClient& servo);
 
-  // Handles an event of the tip on the servo's current sample: a jump, or what it does to a particle.
+  // Handles an event of the tip on the servo's current sample: a jump, or an effect on a particle.
   void happened(const scene::TipEvent& event, const servo::ServoClient& servo);
 
   // Call once a frame with the newest particles or marks, after the servo's events and samples.
   void look(const servo::ServoClient& servo);
 
-  // True if all particles must be put back before the current push, or all marks removed before lines are written.
-  // Once there is no force, request it whenever the second function returns true, at most once a second.
+  // True if all particles must be put back before the current push, or all marks removed before lines are written. Once
+  // there is no force, send the request whenever the second function returns true, at most once a second.
   bool needs_particles_back() const { return prompt_.put_back; }
   bool orders_particles_back();
 
@@ -120,14 +120,14 @@ class LiveLesson {
   std::optional<DataSet> data_;
   std::optional<core::Error> error_;
   bool sound_lost_noted_ = false;
-  std::size_t right_ = 0, judged_ = 0;  // number of counted trials
+  std::size_t right_ = 0, judged_ = 0;  // numbers of right answers and of counted trials
   LessonRun run_;
   LessonPrompt prompt_;
   HandAnswer mark_;
   std::optional<std::size_t> told_mark_;
   std::optional<Laid> laid_;
-  std::optional<double> put_back_s_;  // time of the newest order to put the particles back
-  std::uint32_t edit_ = 0;            // revision of the variant under the tip; 0: parameters as loaded
+  std::optional<double> put_back_s_;  // time of the newest request to put the particles back
+  std::uint32_t edit_ = 0;            // revision of the variant's edit; 0: parameters as loaded
   std::vector<bool> varied_;          // true for materials with changed parameters
 };
 

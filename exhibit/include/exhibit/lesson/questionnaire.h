@@ -13,14 +13,14 @@
 
 namespace afm::exhibit {
 
-// A questionnaire: its items are a run of phrases; its answers are equal steps from `least` to `most`.
+// A questionnaire: its items are consecutive phrases; its answers are equal steps from `least` to `most`.
 struct QuestionnaireRow {
   Questionnaire questionnaire;
   std::string_view word;  // name in lesson files and in the items' ids: "sus-3"
   Phrase first_item;
   std::size_t items;
   int least, most, step;
-  Phrase first_answer;  // a phrase for each answer, or for the two ends of the scale
+  Phrase first_answer;  // first phrase of the answers: one for each answer, or for the two ends of the scale
   std::size_t answer_phrases;
 };
 

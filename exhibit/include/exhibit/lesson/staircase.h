@@ -43,13 +43,13 @@ class UpDownStaircase final : public Staircase {
   double step_;
   Way way_ = Way::None;
   int same_ = 0;                       // number of successive right answers; negative: wrong ones
-  bool before_ = false, any_ = false;  // previous answer
+  bool before_ = false, any_ = false;  // result of the previous answer; whether there is one
   std::size_t reversals_ = 0;
 };
 
 // Goes down by `step` after every right answer, up by `weight` times as much after every wrong one. Converges to a
-// share of right answers of weight/(1 + weight): 75 % for 3 (Kaernbach 1991). Steps are doubled until the first wrong
-// answer.
+// fraction of right answers of weight/(1 + weight): 75 % for 3 (Kaernbach 1991). Steps are doubled until the first
+// wrong answer.
 class WeightedStaircase final : public Staircase {
  public:
   struct Rule {
@@ -73,7 +73,7 @@ class QuestStaircase final : public Staircase {
  public:
   struct Rule {
     double guess = 0, guess_sd = 1;  // threshold before the first answer: mean and standard deviation
-    double share = 0.82;             // share of right answers at the threshold
+    double share = 0.82;             // fraction of right answers at the threshold
     double beta = 3.5, delta = 0.01, gamma = 0.5;
     double grain = 0.01, range = 5;
     double least = -10, most = 10;  // range of the levels
@@ -90,7 +90,7 @@ class QuestStaircase final : public Staircase {
   double at(std::size_t index) const;  // level at a grid point
 
   Rule rule_;
-  double shift_ = 0;  // from the Weibull function's zero to the threshold
+  double shift_ = 0;  // offset from the Weibull function's zero to the threshold
   double order_ = 0.5;
   std::vector<double> density_;
   double level_;

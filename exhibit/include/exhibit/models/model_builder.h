@@ -23,7 +23,7 @@ class ModelBuilder {
 
   scene::NodeIndex model(const std::string& file, std::string_view name, scene::NodeIndex parent);
 
-  // The same, rotated so that the frame `name` has the axes of the model's node `inner`.
+  // Same, rotated so that the frame `name` has the axes of the model's node `inner`.
   scene::NodeIndex model_in_frame_of(const std::string& inner, const std::string& file, const std::string& name,
                                      scene::NodeIndex parent);
 

@@ -17,13 +17,13 @@ namespace afm::exhibit {
 struct ModelChoice {
   std::string file{};
   std::optional<double> at_s{};  // time in its animations; empty: at rest
-  std::string camera = "auto";   // see camera_name(), or "auto"
+  std::string camera = "auto";   // name from camera_name(), or "auto"
   std::string variant{};         // variant of KHR_materials_variants; empty: the file's default materials
   glm::uvec2 size_px{960, 720};  // size of an eye's picture
   double eyes_apart_m = 0.063;   // eye distance in front of a wall of the paper's height; 0: one eye in the middle
 };
 
-// A model by itself, ready to be drawn.
+// A single model, ready to be drawn.
 struct ModelView {
   scene::Scene scene;
   render::FrameState frame;

@@ -22,19 +22,19 @@ scene::Scene particle_island(double core);
 // Flat pad of that size around the origin, on the sample: node "pad".
 scene::Scene particle_pad(double width, double height);
 
-// The same for a pad that spheres stick to.
+// Same for a pad to which spheres stick.
 scene::Scene particle_sticky_pad(double width, double height);
 
 // Ring around a particle of radius 1 that rests on z = 0: node "ring".
 scene::Scene particle_ring();
 
-// Ring on the sample where a particle of radius 1 lay: node "footprint".
+// Ring on the sample at the original place of a particle of radius 1: node "footprint".
 scene::Scene particle_footprint();
 
-// Dot on the sample, one of those between the footprint and a particle of radius 1: node "dot".
+// Dot on the sample, one of a line between the footprint and a particle of radius 1: node "dot".
 scene::Scene particle_dot();
 
-// Cross on the sample where a particle of radius 1 is to lie: node "target".
+// Cross on the sample at the target of a particle of radius 1: node "target".
 scene::Scene particle_target();
 
 // Tip of true shape: a cone that ends in a ball of radius 1, with its apex at the origin, z up to `height`: node "tip".

@@ -9,21 +9,21 @@
 
 namespace afm::exhibit {
 
-// A square of measured heights in false colours, which grows while a tip measures it.
+// A square of measured heights in false colours, which grows during the measurement.
 struct HeightRelief {
-  double side_m = 0;                    // side in metres of the sample's frame, like floor and lid
-  double floor_m = 0, lid_m = 0;        // heights of the lowest and the highest place of the mesh's box
-  double range_m = 0;                   // from the darkest to the brightest colour, metres as measured
-  std::vector<scene::Vertex> vertices;  // one for each of relief_mesh()
+  double side_m = 0;                    // length of a side in metres of the sample's frame, as are floor and lid
+  double floor_m = 0, lid_m = 0;        // lower and upper end of the mesh's box
+  double range_m = 0;                   // range of heights from the darkest to the brightest colour, metres as measured
+  std::vector<scene::Vertex> vertices;  // vertices in the order of relief_mesh()
 };
 
-inline constexpr std::size_t kReliefSide = 128;  // vertices on a side
+inline constexpr std::size_t kReliefSide = 128;  // number of vertices on a side
 
 // A mesh of kReliefSide by kReliefSide vertices, row by row from +y, at the middles of square cells: x and y from -0.5
 // to 0.5, z from 0 to 1. Node "relief", whose vertices a frame gives.
 scene::Scene relief_mesh();
 
-// Colours of a height and scale of the sample's frame.
+// Range of the colours, and scale of the sample's frame.
 struct ReliefScale {
   double low_m = 0, high_m = 1;          // heights of the darkest and the brightest colour, as measured
   double lateral = 1.0, vertical = 1.0;  // metres of the sample's frame per metre as measured

@@ -15,17 +15,17 @@ namespace afm::exhibit {
 // An instrument's topography as a sample: the surface to feel, and the same as a mesh.
 struct TopographyModel {
   scene::Topography topography;
-  scene::Scene sample;  // node "surface" with a mesh in metres as measured: slab and false colours
+  scene::Scene sample;  // node "surface" with a mesh in metres as measured: a slab in false colours
   double lowest_m = 0;  // lower end of the colour scale, in the topography's heights
   double highest_m = 0;
-  double exaggeration = 1;  // vertical exaggeration, everywhere on the wall
-  std::string summary;      // file, channel, size and levelling, for the log
+  double exaggeration = 1;  // vertical exaggeration, the same everywhere on the wall
+  std::string summary;      // file, channel, size and levelling, as text for the log
 };
 
 // BadInputFile as from curves::load_topography() and felt_topography().
 core::Result<TopographyModel> load_topography_model(const std::string& file, const curves::TopographyReading& reading);
 
-// The same for heights that are known, without a summary.
+// Same for known heights, without a summary.
 TopographyModel topography_model(scene::Topography topography);
 
 // Mesh of the heights, with the felt height at every vertex, coloured by exhibit/height_colours.h from `lowest_m` to

@@ -14,7 +14,7 @@ namespace afm::exhibit {
 // with colour blindness tell apart. Clamps other values.
 Srgb force_colour(double share);
 
-inline constexpr std::size_t kSliceColumns = 160, kSliceRows = 48;  // vertices
+inline constexpr std::size_t kSliceColumns = 160, kSliceRows = 48;  // numbers of vertices
 
 // An upright rectangle, unlit and seen from both sides: vertices row by row from below, x from -0.5 to 0.5, z from 0 to
 // 1. Node "slice", whose vertices a frame gives.
@@ -25,7 +25,7 @@ scene::Scene slice_mesh();
 scene::Scene force_bar(double width);
 std::vector<scene::Vertex> force_bar_vertices(double width);
 
-inline constexpr std::size_t kSurfaceSide = 128;  // vertices
+inline constexpr std::size_t kSurfaceSide = 128;  // number of vertices on a side
 
 // A translucent surface of kSurfaceSide by kSurfaceSide vertices, row by row from below, seen from both sides: x and y
 // from -0.5 to 0.5, z from 0 to 1. Node "surface", whose vertices a frame gives.

@@ -10,7 +10,7 @@
 
 namespace afm::exhibit {
 
-// Next step of a task that is done without a picture; empty once it is done. `far_enough`: its particle is at the end
+// Next step of a task without a picture; empty once it is done. `far_enough`: its particle is at the end
 // of the line.
 std::optional<std::string> blind_guidance(const scene::BlindTask& task, const scene::TaskScore& score, bool far_enough,
                                           const Phrases& phrases);

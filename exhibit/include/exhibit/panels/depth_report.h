@@ -19,11 +19,11 @@ struct DepthReport {
   bool measured = false;
   render::DepthRange range{};
   scene::Disparity nearest, farthest;
-  bool hard = false;  // exceeds the one-degree rule: some viewers see double
+  bool hard = false;  // true: one-degree rule exceeded, so some viewers see double
   Relief relief = Relief::NarrowEyes;
 };
 
-// For eyes `ipd_m` apart, level and facing a wall at `distance_m`.
+// Report for eyes `ipd_m` apart, level and facing a wall at `distance_m`.
 DepthReport report_depth(const render::DepthRange& range, double distance_m, double ipd_m, Relief relief);
 
 // One line; empty before the first measurement.

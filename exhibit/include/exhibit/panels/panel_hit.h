@@ -11,8 +11,8 @@
 namespace afm::exhibit {
 
 struct PanelHit {
-  glm::dvec3 point_m{0.0};   // room frame
-  glm::dvec2 place_mm{0.0};  // from the panel's top left corner, x to the right and y down
+  glm::dvec3 point_m{0.0};   // point of intersection in the room frame
+  glm::dvec2 place_mm{0.0};  // offset from the panel's top left corner, x to the right and y down
 };
 
 // Intersection of a ray with a panel, from either side; empty if it misses the panel or the panel has no area.

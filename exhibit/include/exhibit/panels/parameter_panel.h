@@ -23,7 +23,7 @@ render::ControlPanel parameter_panel(const curves::LiveParameters& parameters, c
 // Adds the predicted curve behind the felt ones.
 void add_forecast(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);
 
-// The same for changed parameters, with axes and markers that fit them.
+// Same for changed parameters, with axes and markers that fit them.
 void add_prediction(const curves::LiveParameters& parameters, const Phrases& phrases, render::ForcePanel& panel);
 
 }  // namespace afm::exhibit

@@ -12,9 +12,9 @@ namespace afm::exhibit {
 // sources are details and left out. The set of `now` has a soft sample.
 render::DataPanel scratch_panel(const ParticlesNow& now, const Phrases& phrases);
 
-// Removes what the chosen material's law says from the plot of force, since no law acts where the tip leaves marks:
-// predicted curve, jumps and stage. The curve that was felt has the set's title and all of it is within the axes. The
-// set of `now` has a soft sample or ink.
+// Removes everything that the chosen material's law contributes to the plot of force, since no law acts where the tip
+// leaves marks: predicted curve, jumps and stage. Names the felt curve after the set, with axes that contain all of it.
+// The set of `now` has a soft sample or ink.
 void leave_law_out(const ParticlesNow& now, const Phrases& phrases, render::ForcePanel& plot);
 
 }  // namespace afm::exhibit

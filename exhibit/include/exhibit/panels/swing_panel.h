@@ -22,13 +22,13 @@ namespace afm::exhibit {
 // One thread. The picture of a new Z takes milliseconds.
 class SwingDial {
  public:
-  // `model` is one that taps.
+  // `model` has a lever in tapping mode.
   render::ForcePanel panel(const curves::SampleModel& model, const scene::TipState& tip, const Phrases& phrases);
 
  private:
   const physics::TapPortrait& portrait(const curves::SampleModel& model, double z_m, double reach_m);
 
-  std::shared_ptr<const physics::LawTables> tables_;  // those of the newest sample; null: none yet
+  std::shared_ptr<const physics::LawTables> tables_;  // tables of the newest sample; null: none yet
   std::shared_ptr<const physics::TapSurface> surface_;
   std::optional<std::int64_t> height_;  // height of the portrait, in steps
   physics::TapPortrait portrait_;

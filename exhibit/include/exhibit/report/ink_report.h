@@ -12,11 +12,11 @@ struct ParticleSet;
 
 namespace afm::exhibit {
 
-// Ink that a scripted tip has left, for standard output: figures of the ink, and each move with what it has covered and
-// what the formulas say. The set has ink.
+// Ink left by a scripted tip, for standard output: figures of the ink, and for each move the covered area and
+// the predictions of the formulas. The set has ink.
 std::string ink_text(const scene::ParticleSet& set, const scene::InkRun& run, physics::Frequency rate);
 
-// The same as JSON with sources, in one line, with the unit in each key.
+// Same as one line of JSON with sources, with the unit in each key.
 std::string ink_json(const scene::ParticleSet& set, const scene::InkRun& run, physics::Frequency rate);
 
 }  // namespace afm::exhibit

@@ -43,7 +43,7 @@ nlohmann::json summary_json(const DemoResult& result);
 
 struct ReportPicture {
   std::string caption;
-  std::string png;  // contents of the file
+  std::string png;  // contents of a PNG file
 };
 
 // Returns one self-contained HTML file with all pictures and plots.

@@ -18,8 +18,8 @@ namespace afm::exhibit {
 // Sources as JSON, in the form of `touchafm particles`.
 nlohmann::json sources_json(std::span<const scene::SourcedValue> sources);
 
-// Effects of a scripted tip on a soft sample, as lines of text and as JSON with the unit in each key; each begins with
-// the figures of the sample under the largest load of the hand. `set` is the one that was played at `rate`.
+// Effects of a scripted tip on a soft sample, as lines of text and as JSON with the unit in each key; both begin with
+// the figures of the sample under the largest load of the hand. `set` was played at `rate`.
 std::string scratch_text(const scene::ParticleSet& set, const scene::ScratchRun& run, physics::Frequency rate);
 std::string scratch_json(const scene::ParticleSet& set, const scene::ScratchRun& run, physics::Frequency rate);
 

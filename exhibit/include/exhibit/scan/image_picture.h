@@ -12,7 +12,7 @@
 namespace afm::exhibit {
 
 struct PictureStyle {
-  double cut_share = 0;       // share of the values that may lie beyond each end of the colours, below 0.5
+  double cut_share = 0;       // fraction of the values allowed beyond each end of the colours, below 0.5
   std::vector<bool> hatched;  // pixels with dark stripes, row by row from the top; empty: none
 };
 
@@ -20,7 +20,7 @@ struct PictureStyle {
 // labelled colour bar on the right and a scale bar of a round length below.
 render::Image picture_of(const physics::ScanImage& image, std::size_t channel, const PictureStyle& style = {});
 
-// Texts for its file: the channel with its unit, the size of the image, and its metadata.
+// Texts for the picture's file: the channel with its unit, the size of the image, and its metadata.
 std::vector<std::pair<std::string, std::string>> picture_texts(const physics::ScanImage& image, std::size_t channel);
 
 }  // namespace afm::exhibit

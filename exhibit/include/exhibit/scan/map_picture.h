@@ -21,29 +21,29 @@ struct TipState;
 
 namespace afm::exhibit {
 
-// Quantities for the picture of a force map. All but the height need fits.
+// Quantities for the picture of a force map. All except the height need fits.
 enum class MapQuantity { Height, Modulus, Adhesion };
 
-// "modulus", for the log and for sessions.
+// Name for the log and for sessions: "modulus".
 std::string_view name_of(MapQuantity quantity);
 
-// The quantity of that name; empty: none has it.
+// Quantity with that name; empty if there is none.
 std::optional<MapQuantity> map_quantity_of(std::string_view name);
 
-// The one with which a map begins: the modulus, if its curves were fitted.
+// Quantity shown first for a map: the modulus if its curves were fitted.
 MapQuantity first_quantity(const curves::CurveMap& map);
 
-// The next one that the map has; the same without fits.
+// Next available quantity of the map; the same without fits.
 MapQuantity next_quantity(const curves::CurveMap& map, MapQuantity shown);
 
 // One quantity of a force map in false colours, between the 1st and the 99th percentile, with `felt` marked: heights
-// above the lowest one; the modulus of the fits that are not worthless; the hardest pull. A pixel without a value has
+// above the lowest one; the modulus of all usable fits; the hardest pull. A pixel without a value has
 // the colour of a place without a measurement.
 render::MapPicture map_picture(const curves::CurveMap& map, const curves::MapPlace& felt, const Phrases& phrases,
                                MapQuantity quantity = MapQuantity::Height);
 
-// Notes for the panel on a whole map that is felt: "map: E 2.3 MPa, W 40 mJ/m² here", and a line more if that pixel has
-// no fit, a doubtful one, or none lies below the tip. Empty without a map below the tip.
+// Notes for the panel on a whole map that is felt: "map: E 2.3 MPa, W 40 mJ/m² here", and one more if that pixel has
+// no fit or a doubtful one, or if no pixel lies below the tip. Empty without a map below the tip.
 std::vector<std::string> felt_map_notes(const curves::SampleModel& model, const scene::TipState& tip,
                                         const Phrases& phrases);
 

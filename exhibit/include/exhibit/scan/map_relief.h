@@ -14,13 +14,13 @@ namespace afm::exhibit {
 struct ScanSubject;
 class WallScene;
 
-// A force map that is felt whole as it lies on its sample: the colours of its picture on the drawn surface, `subject`,
-// as far as the map's outermost pixels.
+// Relief of a whole felt map on its sample: the colours of its picture on the drawn surface, `subject`,
+// within the map's outermost pixels.
 HeightRelief map_relief(const render::MapPicture& picture, const curves::SampleModel& model,
                         const ScanSubject& subject);
 
-// Lays it on the sample in front, with the picture's lowest and highest value beside the colour scale; nothing where no
-// sample is shown. Call after WallScene::update(), with the same state, and without another relief.
+// Lays it on the sample in front, with the picture's lowest and highest value beside the colour scale; nothing without
+// a sample. Call after WallScene::update(), with the same state, and without another relief.
 void lay_map(const HeightRelief& relief, const render::MapPicture& picture, const WallScene& wall_scene,
              const WallState& state, render::FrameState& frame);
 

@@ -6,7 +6,7 @@
 
 namespace afm::exhibit {
 
-// The artefact that explains the newest lines of a scan; see physics::main_artefact().
+// Artefact that explains the newest lines of a scan; see physics::main_artefact().
 physics::ScanArtefact cause_of(const LiveScan& scan);
 
 }  // namespace afm::exhibit

@@ -29,14 +29,14 @@ HandSize hand_size(const scene::ActiveContact& active, physics::Length friction_
 double reachable_side_m(const scene::SharedDevice& device, const std::array<double, 16>& room_from_sample,
                         const HandSize& size, double side_m);
 
-// The scan that leads a hand, at a speed that the hand can follow, and waits for it. One thread.
+// A scan that leads a hand at a speed that it can follow, and waits for it. One thread.
 class LeadingScan {
  public:
-  static constexpr double kHandMPerS = 0.06;    // along the lines; comparable to drawing with a ruler
-  static constexpr double kReturnMPerS = 0.09;  // limit for any motion, such as back to the beginning
-  static constexpr double kFarM = 0.015;        // distance to the hand at which the scan waits
+  static constexpr double kHandMPerS = 0.06;    // speed along the lines, comparable to drawing with a ruler
+  static constexpr double kReturnMPerS = 0.09;  // limit for any other motion, such as the return to the beginning
+  static constexpr double kFarM = 0.015;        // distance between hand and scan at which the scan waits
 
-  // Factor by which the lines are slower than their rate; 1 if the rate is slow enough.
+  // Factor by which the lines are slowed down; 1 if their rate is slow enough.
   static double slow_motion(const LiveScan& scan, const HandSize& size);
 
   // Call once a frame: advances the scan as far as the hand has followed. `led`: the servo leads the hand, whose tip is
@@ -46,15 +46,15 @@ class LeadingScan {
                           double seconds);
 
  private:
-  glm::dvec3 path_m_{0.0};  // path of the hand
+  glm::dvec3 path_m_{0.0};  // position on the scan's path, with which the hand is led
   bool led_before_ = false;
 };
 
-// The message for a hand that paints.
+// Message for a hand that paints.
 scene::ScanLead painting_lead(const LiveScan& scan);
 
-// One line for the wall on the hand's next action. Empty after a fault, or while a painting hand still needs its force:
-// the procedure's guidance explains how to get it. `scan` must have a role for the hand.
+// One line for the wall about the hand's next action. Empty after a fault, or while a painting hand still needs its
+// force: the procedure's guidance explains that. `scan` must have a role for the hand.
 std::optional<std::string> hand_guidance(const LiveScan& scan, const scene::TipState& tip, const Phrases& phrases);
 
 }  // namespace afm::exhibit

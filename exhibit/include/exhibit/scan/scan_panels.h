@@ -22,7 +22,7 @@ render::ControlPanel scan_panel(const LiveScan& scan, const std::string& title, 
 // One line for the wall: the image's artefact and its cause, or how to change the settings.
 std::string scan_guidance(const LiveScan& scan, const Phrases& phrases);
 
-// Returns whether the hand has the tip, in contact or with force. The wall then draws it at the hand.
+// True if the hand moves the tip, in contact or with force. The wall then draws it at the hand.
 bool hand_uses_tip(const scene::TipState& tip);
 
 // Shows the scan on the sample: its line, and the tip unless the hand has it; also while the tip leads the hand. In a

@@ -6,10 +6,10 @@
 
 namespace afm::exhibit {
 
-// The image so far, as it lies on the sample: the heights of the trace in the colours of its panel.
+// The image so far, laid on the sample: the heights of the trace in the colours of its panel.
 HeightRelief relief_of(const LiveScan& scan);
 
-// The whole sample as it is drawn, on the square that a scan would take.
+// The whole sample as drawn, on the square that a scan would cover.
 HeightRelief relief_of(const ScanSubject& subject);
 
 }  // namespace afm::exhibit

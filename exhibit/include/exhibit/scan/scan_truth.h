@@ -11,11 +11,11 @@
 
 namespace afm::exhibit {
 
-// Facts that an image does not show: the sample on the image's grid, and the places that the tip cannot touch.
+// The sample on the image's grid, and the places that the tip cannot touch.
 struct ReachOfTip {
   physics::HeightGrid sample;           // row 0 is the top
-  std::vector<std::uint8_t> unreached;  // 1: always a visible gap between sample and tip
-  double unreached_share = 0;           // share of the area, 0 to 1
+  std::vector<std::uint8_t> unreached;  // 1: gap between sample and tip that is always visible
+  double unreached_share = 0;           // fraction of the area, 0 to 1
 };
 
 // Computes the reach of a paraboloidal tip over a square around the origin: unreached is where the sample is below its
@@ -33,7 +33,7 @@ struct TipProfile {
 // noise. Takes some milliseconds.
 TipProfile tip_revealed_by(const physics::HeightGrid& image, double noise_m);
 
-// The actual tip, up to the same distance on both sides.
+// The actual tip, to a lateral distance of `reach_m` on both sides.
 TipProfile round_tip(double radius_m, double reach_m);
 
 }  // namespace afm::exhibit

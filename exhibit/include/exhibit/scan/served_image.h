@@ -25,11 +25,11 @@ class ServedImage {
 
   explicit ServedImage(const Size& size);
 
-  // A line of another size is left out.
+  // Ignores a line of another size.
   void add(const physics::ScanLine& line);
 
-  // Height, error and lateral force, trace and retrace, with the newest line. An image that is no square lies in the
-  // middle of one.
+  // Height, error and lateral force, trace and retrace, with the newest line. Centres an image that is not square in a
+  // square.
   render::ImagePanel panel(const std::string& sample, const Phrases& phrases) const;
 
  private:

@@ -23,49 +23,49 @@ namespace afm::exhibit {
 
 class WallScene;
 
-// The curves of a force map that is felt whole, as seen over its sample. Every curve begins on the drawn surface, which
+// The curves of a whole felt force map, drawn over its sample. Every curve begins on the drawn surface, which
 // is the deepest point that it reached; above it, heights have the scale of the ruler, or another one if the curves
-// would be higher than kVolumeHeight or lower than kLeastVolumeHeight. Keeps what it has drawn until something else is
-// to be seen. One thread.
+// would be higher than kVolumeHeight or lower than kLeastVolumeHeight. Reuses its drawing until something changes.
+// One thread.
 class VolumeView {
  public:
   // `wall_scene` must outlive the object, and have been loaded with UserModels::force_volume.
   explicit VolumeView(const WallScene& wall_scene);
 
   // Adds an upright slice along the scan line through the tip, in the colours of forces, with their scale at its right
-  // end. Nothing where no sample is shown. Call after WallScene::update(), with the same state.
+  // end. No effect without a visible sample. Call after WallScene::update(), with the same state.
   void add_slice(const curves::SampleModel& model, const WallState& state, curves::ForceVolume::Way way,
                  render::FrameState& frame);
 
   // Adds the surface on which the curves have this force, translucent, with the force at its left end: a push on the
-  // approach, a pull, which is negative, on the retract. It is missing where no curve reaches the force.
+  // approach, a pull, which is negative, on the retract. It has gaps where no curve reaches the force.
   void add_surface(const curves::SampleModel& model, const WallState& state, double force_n, render::FrameState& frame);
 
  private:
   // Scales of a sample and its volume on the wall; lengths in units of the layout.
   struct Scales {
-    double release_z_m = -1;                                // as in WallState
+    double release_z_m = -1;                                // size of the sample, as in WallState
     double per_m = 0;                                       // units of the drawing per metre of the sample's frame
     double per_height_m = 0;                                // units of the drawing per metre along the curves
     double lateral = 1;                                     // metres of the sample's frame per metre as measured
-    double top = 0;                                         // height of the curves
-    glm::dvec2 size_m{0.0};                                 // between the middles of the outermost pixels, as measured
-    glm::dvec2 map_m{0.0};                                  // whole map
+    double top = 0;                                         // height of the highest curve above its start
+    glm::dvec2 size_m{0.0};                                 // distances of the outermost pixels' middles, as measured
+    glm::dvec2 map_m{0.0};                                  // width and height of the whole map
     std::function<double(double x_m, double y_m)> drawn_m;  // height of the surface, in metres as drawn
     scene::TopographyScale shown{};                         // metres of the sample's frame per metre as drawn
-    double floor = 0, lid = 0;                              // surface; top of the highest curve over it
+    double floor = 0, lid = 0;                              // drawn heights of the surface and of the highest curve
   };
   // The newest drawing.
   struct Slice {
     std::size_t row = 0;
     curves::ForceVolume::Way way{};
     std::vector<scene::Vertex> vertices;
-    double left = 0, right = 0;  // heights of the surface at its ends
+    double left = 0, right = 0;  // heights of the surface at both ends
   };
   struct Surface {
     double force_n = 0;
     std::vector<scene::Vertex> vertices;
-    double left = 0;  // its height at the left end of its front
+    double left = 0;  // height at the left end of the front edge
   };
 
   const Scales& scales_of(const curves::SampleModel& model, const WallState& state);

@@ -20,7 +20,7 @@ class Analogy {
   // Heights above the plate, in units of the sample's frame: the magnet's poles and, at the resting length of the
   // spring above them, the hand.
   struct Heights {
-    double poles = 0;       // tip height: Z minus the deflection
+    double poles = 0;       // height of the tip: Z minus the deflection
     double deflection = 0;  // length of the spring minus its resting length
   };
   void place(const Heights& heights, std::vector<glm::dmat4>& local) const;

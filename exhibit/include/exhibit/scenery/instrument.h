@@ -34,21 +34,21 @@ class Instrument {
     body_front_z_ = front_z;
   }
 
-  // State of the tip, and the scale that it is shown at.
+  // State of the tip, and the scale of its picture.
   struct Setting {
     scene::Tip tip;
     double layout_per_m = 0;       // layout units per metre of the nanoworld
-    glm::dvec3 below_tip{0.0};     // the surface's point, sample's frame, layout units
-    double full_deflection_m = 1;  // shown as the diode's whole reach
-    double strobe_m = 0;           // deflection of the slow swing, which lever and light show, and the arrow does not
+    glm::dvec3 below_tip{0.0};     // point of the surface, sample's frame, layout units
+    double full_deflection_m = 1;  // deflection at which the spot reaches the edge of the diode
+    double strobe_m = 0;           // deflection of the slow-motion swing, shown by lever and light but not by the arrow
   };
 
-  // Each sets the transforms of its nodes from their parents.
+  // Each function sets the transforms of its nodes from their parents.
   void place_probe(const scene::Scene& scene, const Setting& setting, const WallMarks& marks,
                    std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
   // A pale copy of the lever.
   void place_ghost(const Setting& setting, std::vector<glm::dmat4>& local, render::BeamBend& bend) const;
-  // The space that the lever sweeps as it swings about that pose, and the tip at both turning points.
+  // The space swept by the lever as it swings about that pose, and the tip at both turning points.
   void place_swing(const Setting& setting, double amplitude_m, std::vector<glm::dmat4>& local,
                    render::BeamBend& bend) const;
   void place_optics(const scene::Scene& scene, const Setting& setting, std::vector<glm::dmat4>& local) const;
@@ -71,8 +71,8 @@ class Instrument {
   // Pose of the lever in the sample's frame, layout units.
   struct LeverPose {
     glm::dmat4 frame_from_lever{1.0};  // origin at the clamp, x along the unbent lever, z away from the sample
-    double end = 0;                    // end of the bent lever, along z
-    double angle = 0;                  // slope at that end, rad
+    double end = 0;                    // height of the bent lever's end, along z
+    double angle = 0;                  // slope of the lever at that end, rad
   };
 
   LeverPose lever_pose(const Setting& setting) const;
@@ -81,8 +81,8 @@ class Instrument {
       band_{}, stage_{}, body_{}, floor_{}, floor_surface_{};
   std::array<scene::NodeIndex, 2> turns_{};  // tip at the highest and the lowest point of the swing
   scene::NodeIndex optics_{}, laser_{}, photodiode_{}, beam_in_{}, beam_out_{}, spot_{};
-  double lever_length_ = 0;  // glTF metres, clamp to tip axis
-  double tip_length_ = 0;    // glTF metres, base to apex
+  double lever_length_ = 0;  // distance from clamp to tip axis in glTF metres
+  double tip_length_ = 0;    // length from base to apex in glTF metres
   double stage_scale_ = 0, stage_height_ = 0, stage_depth_ = 0, body_depth_ = 0;
   double floor_y_ = 0, body_front_z_ = 0;
 };

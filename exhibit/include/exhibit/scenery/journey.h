@@ -16,10 +16,10 @@
 
 namespace afm::exhibit {
 
-// From the bench to the atoms. At `orders` of the journey, one layout unit shows 10^-orders metres.
+// Length of the journey from the bench to the atoms. At `orders` of it, one layout unit shows 10^-orders metres.
 inline constexpr double kJourneyOrders = 9.0;
 
-// Name of the visible part, such as the cantilever.
+// Name of the visible part at this point, such as the cantilever.
 Phrase journey_place(double orders);
 
 // The instrument at its true proportions, from the bench to the last atom of its tip, and the samples below it, at one
@@ -49,7 +49,7 @@ class Journey {
   // a pixel large.
   bool shows(scene::NodeIndex node, double orders, std::size_t ground) const;
 
-  // Sets the shadows: those of the triangles down to the lever, from there on the tip's soft one on the ground, whose
+  // Sets the shadows: the triangles' shadows down to the lever, then the tip's soft one on the ground, whose
   // length no shadow map covers. `unit_m` is a layout unit in the room.
   void shade(double orders, const glm::dmat4& room_from_frame, double unit_m, render::FrameState& frame) const;
 
@@ -67,12 +67,12 @@ class Journey {
   scene::NodeIndex frame() const { return frame_; }
 
  private:
-  // The tip's end, as its model has it: a ball on a cone between the pyramid's faces and its edges.
+  // End of the tip in its model: a ball on a cone between the pyramid's faces and its edges.
   struct Tip {
-    double gap_m = 0;     // from the sample to the last atom
-    double lowest_m = 0;  // from the sample to the ball
-    double radius_m = 0;  // the ball's
-    double height_m = 0;  // from the ball's lowest point to the tip's base
+    double gap_m = 0;     // distance from the sample to the last atom
+    double lowest_m = 0;  // distance from the sample to the ball
+    double radius_m = 0;  // radius of the ball
+    double height_m = 0;  // height from the ball's lowest point to the tip's base
     double slope = 0;
   };
   void measure_tip(const scene::Scene& scene, ModelBuilder& build);
@@ -85,11 +85,11 @@ class Journey {
   void measure(const scene::Scene& scene, scene::NodeIndex first, std::optional<std::size_t> ground);
 
   scene::NodeIndex frame_ = 0;
-  double low_tilt_rad_ = 0;     // the ground's, under the tip
-  double atoms_at_orders_ = 0;  // the samples' atoms are out of the ground
+  double low_tilt_rad_ = 0;     // tilt of the ground under the tip
+  double atoms_at_orders_ = 0;  // orders from which the samples' atoms are out of the ground
   Tip tip_;
   std::vector<Part> parts_;
-  std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // those with an outline, and those of the samples
+  std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // atoms with an outline, and atoms of the samples
   std::vector<std::string> grounds_;
 };
 
@@ -105,9 +105,9 @@ class JourneyTravel {
   void turn_round(std::int64_t now_ns);
   void update(std::int64_t now_ns);
 
-  bool away() const { return progress_s_ > 0.0; }  // has left the instrument, or is about to
-  double fade() const;                             // dissolved share of the picture, 0 to 1
-  std::optional<double> orders() const;            // empty while the instrument is in view
+  bool away() const { return progress_s_ > 0.0; }  // true: view away from the instrument, or about to leave it
+  double fade() const;                             // dissolved fraction of the picture, 0 to 1
+  std::optional<double> orders() const;            // position on the journey; empty while the instrument is in view
 
  private:
   Motion motion_;

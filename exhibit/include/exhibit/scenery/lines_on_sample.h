@@ -10,7 +10,7 @@ namespace afm::exhibit {
 struct LinesToWrite;
 class WallScene;
 
-// Draws lines that are to be written on the soft sample of a wall, as dots; call after WallScene::update(). Nothing on
+// Draws the lines to write as dots on the soft sample of a wall; call after WallScene::update(). No effect on
 // a wall without particles.
 void add_lines(const LinesToWrite& lines, const WallScene& wall, render::FrameState& frame);
 

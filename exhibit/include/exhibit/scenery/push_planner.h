@@ -15,12 +15,12 @@ namespace afm::exhibit {
 class WallScene;
 struct WallState;
 
-// A ray in the frame of the sample in front, in metres of the nanoworld; nothing while no sample is in front.
+// A ray in the frame of the sample in front, in metres of the nanoworld; empty if no sample is in front.
 std::optional<input::Ray> ray_on_sample(const WallScene& scene, const WallState& state, const input::Ray& ray);
 
 // The plan of a push, made with a pointer or with keys: a sphere, and the place to which it is to be pushed straight.
-// Places are those of the pattern and any other on the sample. A groove along the line is off until it is switched on,
-// and stays on for the next plan. Every function returns what it did in one line for the log. One thread.
+// Places are those of the pattern or any other on the sample. A groove along the line is off until it is switched on,
+// and stays on for the next plan. Every function returns its effect as one line for the log. One thread.
 class PushPlanner {
  public:
   // `set` must outlive the object.
@@ -30,15 +30,15 @@ class PushPlanner {
   // elsewhere on the sample it makes that place the target. No effect if the ray meets neither.
   std::optional<std::string> point(const input::Ray& ray, const ParticlesNow& now);
 
-  // Plans the next sphere that can be pushed; after the last there is no plan.
+  // Plans the next sphere that can be pushed; after the last one, removes the plan.
   std::string next_particle(const ParticlesNow& now);
 
-  // Next place of the pattern for the planned sphere; without a pattern, a way of 3 rho in one of eight directions.
+  // Next place of the pattern for the planned sphere; without a pattern, 3 rho away in one of eight directions.
   std::string next_place(const ParticlesNow& now);
 
   std::string toggle_groove();
 
-  // No plan, no groove.
+  // Removes plan and groove.
   void clear();
 
   scene::PlannedPush plan() const;
@@ -61,7 +61,7 @@ class PushPlanner {
   std::vector<glm::dvec2> targets_m_;  // places of the pattern
   scene::PlannedPush plan_;            // newest plan, without its groove
   bool groove_ = false;
-  std::size_t place_ = 0;  // newest place chosen by key
+  std::size_t place_ = 0;  // index of the place last chosen by key
 };
 
 }  // namespace afm::exhibit

@@ -19,27 +19,27 @@ class WallPlaces {
  public:
   WallPlaces() = default;
 
-  // Computes the layout for so many swatches from the screens and the viewer in front of them.
+  // Computes the layout for this number of swatches from the screens and the viewer in front of them.
   WallPlaces(const StagePlace& stage, std::size_t swatches);
 
-  // Origin at the contact point, x right, y up, z to the viewer; 1 = the paper wall's metre.
+  // Frame with its origin at the contact point, x right, y up, z to the viewer; unit: one metre of the paper's wall.
   const glm::dmat4& room_from_layout() const { return room_from_layout_; }
-  // Of the whole main screen.
+  // View of the whole main screen.
   const Journey::View& journey_view() const { return journey_view_; }
   double unit_m() const;  // size of one layout unit in metres
   double shelf_y() const { return shelf_y_; }
   double height_bar_x() const { return height_bar_x_; }
-  // Left end of the plate with the word and number of a jump, which no eye sees over the left panel.
+  // Left end of the plate with the word and number of a jump, limited so that no eye sees it over the left panel.
   double cue_left() const { return cue_left_; }
-  render::PanelPlacement height_bar_text(double share) const;  // number beside it, 0 at its foot, 1 at its head
+  render::PanelPlacement height_bar_text(double share) const;  // number beside the scale, 0 at its foot, 1 at its head
 
-  // In the layout, of so many swatches.
+  // Place of swatch `i` of `count` in the layout.
   glm::dvec3 swatch(std::size_t i, std::size_t count) const;
 
   glm::dvec3 wand_grip_m() const;
 
-  // Places beyond the two panels, where the wall is wide enough and the viewer need not turn far: of the images of a
-  // scan, and of whatever is in place of the data elsewhere.
+  // Places beyond the two panels, if the wall is wide enough and the viewer need not turn far: for the images of a
+  // scan, and for the content that replaces the data elsewhere.
   struct Far {
     render::PanelPlacement left, right;
   };
@@ -55,7 +55,7 @@ class WallPlaces {
   // Placement of a short note below the left panel.
   render::PanelPlacement note() const;
 
-  // Placement of the ruler's number, beside a ruler of this length: at its right, or at its left where something else
+  // Placement of the ruler's number, beside a ruler of this length: at its right, or at its left if something else
   // is at the right.
   enum class RulerSide { Left, Right };
   render::PanelPlacement ruler_text(double length, RulerSide side) const;
@@ -75,12 +75,12 @@ class WallPlaces {
   void lay_out_far_panels(const StagePlace& stage);
   void lay_out_cue(const StagePlace& stage);
   void lay_out_height_bar(const StagePlace& stage, std::size_t swatches);
-  render::PanelPlacement finale() const;  // the large plot
+  render::PanelPlacement finale() const;  // placement of the large plot
   render::PanelPlacement right_of_data(double inset) const;
 
   glm::dmat4 room_from_layout_{1.0};
   Journey::View journey_view_;
-  glm::dmat4 room_from_wall_{1.0};  // the same with y along the main screen; differs if that lies flat
+  glm::dmat4 room_from_wall_{1.0};  // room_from_layout_ with y along the main screen; differs if that lies flat
   WallShape shape_;
   double half_width_ = 0;  // half width of the composition in layout units
   double wall_bottom_ = 0, wall_top_ = 0;

@@ -34,9 +34,9 @@ struct UserModels;
 
 // Drawing scales: metres of the nanoworld (or of the instrument) per metre of the wall.
 struct DrawnScale {
-  double sample_m_per_m = 0;  // sample, displacement, deflection
-  double lever_m_per_m = 0;   // chip and cantilever
-  double tip_m_per_m = 0;     // tip
+  double sample_m_per_m = 0;  // scale of sample, displacement and deflection
+  double lever_m_per_m = 0;   // scale of chip and cantilever
+  double tip_m_per_m = 0;     // scale of the tip
 };
 
 // The scene on the wall: its models, their places, and their motion with the tip. Built once, const afterwards. Shows
@@ -57,14 +57,14 @@ class WallScene {
   // Swatches as targets of the wand, in the order of the materials.
   std::vector<input::Target> swatch_targets() const;
 
-  // The surfaces that are felt, as drawn.
+  // Felt surfaces, as drawn.
   std::span<const scene::SharedHeightField> height_fields() const { return height_fields_; }
 
-  // A measured topography that replaces them, without columns if there is none; and its scale on a material.
+  // Measured topography that replaces them, without columns if there is none; and its scale on a material.
   const scene::Topography& topography() const { return topography_; }
   scene::TopographyScale topography_scale(std::size_t material) const { return looks_[material].topography; }
 
-  // Stores in a material's parameters the surface with which it is felt, and the size of that surface: whatever the
+  // Stores in a material's parameters its felt surface, and the size of that surface: whatever the
   // stroke, the sample is drawn at the same size, and the hand feels it there.
   void lay_surface_on(scene::SharedContact& parameters, std::size_t material) const {
     parameters.height_field = looks_[material].height_field;
@@ -72,10 +72,10 @@ class WallScene {
     parameters.surface_release_m = looks_[material].surface_stroke_m / kStrokeOfZjoc;
   }
 
-  // The contact point; in the wall's plane until something has been moved.
+  // Contact point; in the wall's plane until something has been moved.
   glm::dvec3 contact_m() const { return glm::dvec3(places_.room_from_layout()[3]); }
 
-  // The places of its panels, and of the wand in a simulated person's hand.
+  // Places of its panels, and of the wand in a simulated person's hand.
   const WallPlaces& places() const { return places_; }
 
   // Size of one layout unit in metres, chosen so that every wall looks the same.
@@ -83,7 +83,7 @@ class WallScene {
 
   // Size of a panel's millimetre in metres; larger than the layout's if the text is enlarged.
   double panel_millimetre_m() const { return 1e-3 * text_size_ * unit_m(); }
-  void set_text_size(double times) { text_size_ = times; }  // call before the first frame
+  void set_text_size(double times) { text_size_ = times; }  // only before the first frame
 
   // Outward normal of the sample and its x axis, to the right; unit vectors in the room frame.
   glm::dvec3 sample_normal() const;
@@ -101,10 +101,10 @@ class WallScene {
   // Lays an image on the sample in front, with its colour scale beside it. Call after update(), with the same state.
   void lay_on_sample(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
 
-  // The same for marks, below which the level sample is drawn deeper than any of them.
+  // Same for marks; draws the level sample below the deepest of them.
   void lay_marks(const HeightRelief& relief, const WallState& state, render::FrameState& frame) const;
 
-  // Moves the ruler's number to the left of the ruler, for something that covers its right. Call as lay_on_sample().
+  // Moves the ruler's number to the left of the ruler, to make room on its right. Call like lay_on_sample().
   void clear_right_of_ruler(const WallState& state, render::FrameState& frame) const;
 
   // Fills the frame's transforms, visibility, highlights, bend, light, labels and panel placements.
@@ -112,14 +112,14 @@ class WallScene {
 
  private:
   struct MaterialLook {
-    std::size_t ground;       // ground in the journey
-    scene::NodeIndex sample;  // scaled frame
+    std::size_t ground;       // index of the ground in the journey
+    scene::NodeIndex sample;  // frame with the sample's scale
     scene::NodeIndex swatch;
-    scene::NodeIndex label;    // place of the name on the swatch
-    double stroke_m;           // from the deepest push to the highest lift
-    double surface_stroke_m;   // stroke at which the surface has its own size
+    scene::NodeIndex label;    // node at the place of the name on the swatch
+    double stroke_m;           // height from the deepest push to the highest lift
+    double surface_stroke_m;   // stroke at which the surface has its original size
     double full_deflection_m;  // deflection at pull-off
-    double thickness_m;        // thickness of the slab, at the surface's own size
+    double thickness_m;        // thickness of the slab at the surface's original size
     std::uint32_t height_field;
     scene::TopographyScale topography;
   };
@@ -152,7 +152,7 @@ class WallScene {
   double topography_relief_m_ = 0;  // range of the colour scale
   double topography_exaggeration_ = 1;
   scene::NodeIndex height_bar_{}, relief_{};
-  std::vector<std::string> surface_models_;  // model of each surface
+  std::vector<std::string> surface_models_;  // model files of the surfaces, in the order of height_fields_
   WallPlaces places_;
   double text_size_ = 1.0;
 

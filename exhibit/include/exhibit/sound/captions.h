@@ -15,8 +15,8 @@ namespace afm::exhibit {
 class Captions {
  public:
   static constexpr std::int64_t kShownNs = 4'000'000'000;
-  static constexpr std::int64_t kReadableNs = 2'000'000'000;  // shortest time before a frequent event replaces it
-  static constexpr std::int64_t kLeastNs = 400'000'000;       // shortest time before any other replaces it
+  static constexpr std::int64_t kReadableNs = 2'000'000'000;  // shortest display before a frequent event
+  static constexpr std::int64_t kLeastNs = 400'000'000;       // shortest display before any other event
 
   void add(HeardEvent event, std::string text, std::int64_t now_ns);
 

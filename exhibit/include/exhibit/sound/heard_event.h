@@ -15,13 +15,13 @@ enum class HeardEvent {
   SnapIn,
   PullOff,
   Slip,
-  Touch,         // the force has changed from zero or a pull to a push
+  Touch,         // change of the force from zero or a pull to a push
   ForceOn,       // force on the hand enabled
-  ForceOff,      // disabled by a person or by a change of the sample
-  Fault,         // disabled after a failure
-  SampleChosen,  // the sample is under the tip
-  TurnOnReady,   // the tip is high enough for Turn-On
-  ScanLine,      // a line of a scan is complete
+  ForceOff,      // force disabled by a person or by a change of the sample
+  Fault,         // force disabled after a failure
+  SampleChosen,  // sample placed under the tip
+  TurnOnReady,   // tip high enough for Turn-On
+  ScanLine,      // completed line of a scan
   ParticleTouched,
   ParticleGave,
   ParticleLost,
@@ -30,22 +30,22 @@ enum class HeardEvent {
   ParticleTorn,
   PushTakenBack,
   ParticlesPutBack,
-  PatternDone,       // the particles lie on the pattern of their set
-  JumpToRepulsion,   // a tapping lever fell into the repulsive state
-  JumpToAttraction,  // it fell back into the attractive one
+  PatternDone,       // particles complete on the pattern of their set
+  JumpToRepulsion,   // fall of a tapping lever into the repulsive state
+  JumpToAttraction,  // fall of a tapping lever into the attractive state
   ParticleLifted,
   ParticleSetDown,
-  LookedAgain,        // a scan of the particles near the tip begins
-  SurfaceMarked,      // the tip begins to press a soft sample in
-  TipStopped,         // it cannot sink deeper
-  HandTooFast,        // the hand moves faster than the tip scratches
-  InkFlows,           // a tip with ink touches the sample
-  LiquidTorn,         // it comes off
-  ParticleSwept,      // a scan that presses too hard begins to push a particle
-  ParticleAstray,     // a pushed particle has come off the way of the tip
-  ParticleJammed,     // the tip presses particles hard that cannot move
-  ParticleFarEnough,  // without a picture: a pushed particle is at the end of its line
-  BlindTaskDone,      // a task without a picture is done
+  LookedAgain,        // start of a second look at the particles near the tip
+  SurfaceMarked,      // first pressing of the tip into a soft sample
+  TipStopped,         // tip unable to sink deeper
+  HandTooFast,        // hand too fast for the tip to scratch
+  InkFlows,           // contact of a tip with ink and the sample
+  LiquidTorn,         // end of that contact
+  ParticleSwept,      // first push of a particle by a scan that presses too hard
+  ParticleAstray,     // pushed particle off the path of the tip
+  ParticleJammed,     // hard pressure on particles that cannot move
+  ParticleFarEnough,  // pushed particle at the end of its line, without a picture
+  BlindTaskDone,      // task without a picture completed
 };
 
 }  // namespace afm::exhibit
@@ -67,11 +67,11 @@ struct SignalNote {
   double from_hz = 0;
   double to_hz = 0;
   double level = 0;  // amplitude; 1: full scale
-  double edge = 0;   // see Tone
+  double edge = 0;   // share of the octave, as in Tone
 };
 
 struct Signal {
-  std::array<SignalNote, 3> notes{};  // in order of their starts; zero length: no note
+  std::array<SignalNote, 3> notes{};  // notes in order of their starts; zero length: no note
   double length_s() const;
 };
 
@@ -79,8 +79,8 @@ enum class Spoken { AtOnce, OnRequest };
 
 struct HeardEventRow {
   HeardEvent event;
-  Phrase caption;  // with the placeholders kEventPlaces
-  Phrase said;     // with the placeholders kEventPlaces
+  Phrase caption;  // text with the placeholders kEventPlaces
+  Phrase said;     // text with the placeholders kEventPlaces
   Spoken spoken;   // OnRequest: too frequent, so spoken only after the key Y
   Signal signal;
 };

@@ -8,9 +8,9 @@
 
 namespace afm::exhibit {
 
-// Notices that particles are jammed: the tip presses one of them sideways with kTimes the force at which it would give
-// alone, and none moves. With more, a tip slips past it before it gives (haptics/particle_scale.h). Once for each
-// press. One thread.
+// Detects jammed particles: the tip presses one of them sideways with kTimes the force at which it would move
+// alone, and none moves. With an even larger force, a tip slips past it before it moves (haptics/particle_scale.h).
+// Reports once for each press. One thread.
 class JamWatch {
  public:
   static constexpr double kTimes = 3.0;
@@ -19,7 +19,7 @@ class JamWatch {
   std::optional<double> add(const scene::TipPush& push);
 
  private:
-  std::uint64_t digest_ = 0;  // digest of the places in the frame before
+  std::uint64_t digest_ = 0;  // digest of the places in the previous frame
   bool jammed_ = false;
 };
 

@@ -21,8 +21,8 @@ namespace afm::exhibit {
 // the wall needs for the whole procedure. Thread of the frame loop.
 class Narrator final : public servo::TipAudience {
  public:
-  using Signal = std::function<void(const Heard&)>;    // events that do not come from a servo
-  using Say = std::function<void(const SpeechText&)>;  // must not block
+  using Signal = std::function<void(const Heard&)>;    // receiver of events that do not come from a servo
+  using Say = std::function<void(const SpeechText&)>;  // speech output that must not block
 
   // `titles` of the materials, in the language of the phrases. Phrases and clock must outlive the object.
   Narrator(const Phrases& phrases, std::vector<std::string> titles, const core::Clock& clock, Signal signal, Say say);
@@ -38,7 +38,7 @@ class Narrator final : public servo::TipAudience {
   struct Step {
     Hint hint = Hint::ChooseSample;
     std::string guidance;
-    std::optional<std::uint32_t> scan_lines;  // lines finished in the current image; empty: no scan
+    std::optional<std::uint32_t> scan_lines;  // number of finished lines of the current image; empty: no scan
   };
   void follow(const scene::TipState& tip, const Step& step);
 

@@ -13,9 +13,9 @@ double note_hz(double note);
 struct Tone {
   double hz = 0;
   double level = 0;  // 0: silent, 1: loudest
-  double side = 0;   // -1: left ear only, 1: right ear only
-  double edge = 0;   // 0: a pure tone, 1: with its octave, which makes a difference even in mono
-  double hiss = 0;   // 1: noise around that frequency in place of the tone
+  double side = 0;   // -1: only left ear; 1: only right ear
+  double edge = 0;   // 0: pure tone; 1: with its octave, a difference that is audible even in mono
+  double hiss = 0;   // 1: noise around that frequency instead of the tone
 
   bool operator==(const Tone&) const = default;
 };
@@ -24,15 +24,15 @@ struct Tone {
 // along the asinh of the hand's compressed scale (haptics::compression_bend_n), so that ear and hand share one scale. A
 // push may exceed the strongest pull and rises by up to another octave. A pull is on the left, a push on the right.
 //
-// A lever that taps sounds in the middle instead: the free swing, 90 degrees behind its drive, as A4, an octave higher
-// or lower for 90 degrees more or less, and as loud as the share of the free amplitude that is left. The tone of a
+// In tapping mode the tone is central instead: the free swing, 90 degrees behind its drive, as A4, an octave higher
+// or lower for 90 degrees more or less, and as loud as the remaining fraction of the free amplitude. The tone of a
 // repulsive swing, below 90 degrees, has its octave added, which makes the two states different even in mono.
 class Ear {
  public:
   static constexpr double kLowestNote = 48, kNotesToPull = 36, kNotesBeyond = 12;
 
-  // Forces on the tip, newtons, both above 0: the compression's bend, and the strongest pull. `free_amplitude_m`: of a
-  // lever that taps, otherwise 0.
+  // Forces on the tip, newtons, both above 0: the compression's bend, and the strongest pull. `free_amplitude_m`: in
+  // tapping mode, otherwise 0.
   Ear(double bend_n, double strongest_n, double free_amplitude_m = 0);
   explicit Ear(const physics::LawTables& tables, double free_amplitude_m = 0);
 

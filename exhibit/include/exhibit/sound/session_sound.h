@@ -15,7 +15,7 @@ namespace afm::exhibit {
 // material has no force law, or if the session is longer than an hour.
 core::Result<std::vector<float>> sound_of(const servo::RecordedSession& session, Channels channels, double gain);
 
-// The same as the contents of a WAV file.
+// Same as the contents of a WAV file.
 core::Result<std::string> wav_of(const servo::RecordedSession& session, Channels channels, double gain);
 
 }  // namespace afm::exhibit

@@ -19,7 +19,7 @@ namespace afm::exhibit {
 // Part of a spoken phrase, at kSoundRateHz.
 struct VoiceBlock {
   static constexpr std::size_t kSamples = 480;
-  std::uint32_t phrase = 0;  // number of the phrase; a newer one interrupts it
+  std::uint32_t phrase = 0;  // number of the phrase; a higher one interrupts it
   std::uint32_t count = 0;
   std::array<float, kSamples> samples{};
 };
@@ -37,18 +37,18 @@ class SoundMixer final : public servo::TipAudience {
 
   explicit SoundMixer(Channels channels) : synthesizer_(channels) {}
 
-  // ---- for the thread that reads the servo
+  // ---- for the thread that reads the servo ----
   void heard(const scene::TipSample& sample) noexcept override;
   void heard(const scene::TipEvent& event) noexcept override;
 
   // ---- for the frame loop
   void happened(const Heard& event) noexcept;
-  void set_ear(std::size_t material, const Ear& ear) noexcept;  // before its forces sound, and on changes
-  void set_volume(double gain) noexcept { gain_.store(static_cast<float>(gain)); }  // 0: silent
-  void set_tones(bool on) noexcept { tones_.store(on); }  // disables tones and signals but not the voice
+  void set_ear(std::size_t material, const Ear& ear) noexcept;  // before the material's forces sound, and on changes
+  void set_volume(double gain) noexcept { gain_.store(static_cast<float>(gain)); }  // output gain; 0: silent
+  void set_tones(bool on) noexcept { tones_.store(on); }  // tones and signals, without the voice
 
   // ---- for the thread that speaks
-  bool speak(const VoiceBlock& block) noexcept { return voice_.push(block); }  // false: full, try again
+  bool speak(const VoiceBlock& block) noexcept { return voice_.push(block); }  // false: queue full, try again
   void cut_voice(std::uint32_t next_phrase) noexcept { phrase_.store(next_phrase); }
 
   // ---- for the audio thread: the next samples, left and right alternating. Wait-free; neither allocates nor throws.
@@ -61,7 +61,7 @@ class SoundMixer final : public servo::TipAudience {
     scene::Swing swing{};
     HeardPush push{};
     std::int32_t material = -1;
-    bool event = false;  // false: a sample, which has a force
+    bool event = false;  // true: an event; false: a sample, which has a force
     bool audible = false;
     HeardEvent what{};
   };
@@ -95,7 +95,7 @@ class SoundMixer final : public servo::TipAudience {
   StreamClock clock_;
   Synthesizer synthesizer_;
   VoiceBlock block_;
-  std::size_t spoken_ = 0;  // position in the block
+  std::size_t spoken_ = 0;  // position within block_
   float voice_gain_ = 0;
   double last_hz_ = 0;
 

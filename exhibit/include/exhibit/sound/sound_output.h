@@ -25,7 +25,7 @@ class SoundOutput {
   SoundOutput& operator=(const SoundOutput&) = delete;
   virtual ~SoundOutput() = default;
 
-  virtual const std::string& driver() const = 0;  // "pulseaudio"
+  virtual const std::string& driver() const = 0;  // SDL's name of its driver: "pulseaudio"
 
   // False once the card is gone, which is permanent.
   virtual bool plays() = 0;

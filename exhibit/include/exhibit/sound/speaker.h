@@ -42,10 +42,10 @@ class Speaker {
   const core::Clock& clock_;
   SpeechChild child_;
   core::OnInterruption ended_;
-  std::mutex mutex_;  // protects the queue
+  std::mutex mutex_;  // protects queue_
   std::condition_variable wake_;
   SpeechQueue queue_;
-  std::atomic<bool> newer_{false};  // interrupts the current phrase
+  std::atomic<bool> newer_{false};  // true: newer text, which interrupts the current phrase
   std::atomic<bool> ending_{false};
   std::uint32_t phrase_ = 0;
   bool logged_ = false;

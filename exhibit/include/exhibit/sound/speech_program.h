@@ -19,7 +19,7 @@ struct SpeechProgram {
   enum class Voice { Piped, ItsOwn };
 
   std::string path;      // path of the executable
-  std::string language;  // "en"
+  std::string language;  // language of the voice, such as "en"
   Voice voice = Voice::Piped;
 
   // Command-line arguments with the text as the last one, protected from being parsed as an option.
@@ -32,7 +32,7 @@ class SpeechChild {
  public:
   // Longest time for writing a whole phrase to a pipe, and for speaking it.
   static constexpr std::int64_t kPipedMs = 2'000, kItsOwnMs = 30'000;
-  static constexpr std::size_t kMostBytes = 16'000'000;  // three minutes of a voice
+  static constexpr std::size_t kMostBytes = 16'000'000;  // size of three minutes of a voice
 
   // Runs the program and returns its output. Calls `cut_off` every few milliseconds and ends the child, with an empty
   // result, once it returns true. Failed, with one line of text, if it cannot be started, takes too long, ends with an

@@ -21,12 +21,12 @@ class SpeechQueue {
  public:
   void offer(SpeechText text);
 
-  // The text to begin now, or empty; it interrupts the previous one. Report the end of its speech as soon as it is
+  // Text to begin now, or empty; it interrupts the previous one. Report the end of its speech as soon as it is
   // known: until then no guidance follows an event.
   std::optional<SpeechText> take(std::int64_t now_ns);
   void spoken_until(std::int64_t end_ns) { end_ns_ = end_ns; }
 
-  // Earliest time at which take() may return a text without a new offer: empty if none waits, 0 for at once.
+  // Earliest time at which take() may return a text without a new offer; empty if none waits, 0 if it is due.
   std::optional<std::int64_t> next_ns() const;
 
  private:

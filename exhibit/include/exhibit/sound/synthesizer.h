@@ -27,7 +27,7 @@ double rise(double time_s, double length_s);
 // throws. One thread.
 class Synthesizer {
  public:
-  static constexpr double kLoudest = 0.891;  // -1 dBFS
+  static constexpr double kLoudest = 0.891;  // amplitude of -1 dBFS
 
   explicit Synthesizer(Channels channels) : channels_(channels) {}
 
@@ -35,7 +35,7 @@ class Synthesizer {
   // if it is past.
   void set_tone(std::int64_t at, const Tone& tone) noexcept;
   // Plays the event's signal from sample `at` on, or at once if it is past. Drops it if too many already play: some
-  // slips, rarely others.
+  // slips, rarely other events.
   void play(std::int64_t at, HeardEvent event, double side) noexcept;
 
   // Gain of the whole output; 1: unchanged. Changes within milliseconds.
@@ -66,7 +66,7 @@ class Synthesizer {
     double wanted = 0;
     void step() noexcept;
   };
-  // Smooth noise, which moves on by `share` of the way from one random number to the next.
+  // Smooth noise, interpolated between random numbers; `share` is the step from one to the next.
   struct Noise {
     double from = 0, to = 0, along = 0;
     std::uint32_t state = 2463534242;
@@ -85,7 +85,7 @@ class Synthesizer {
   Channels channels_;
   std::int64_t position_ = 0;
   Point from_;
-  std::array<Point, kPoints> points_{};  // ring buffer
+  std::array<Point, kPoints> points_{};  // ring buffer of tones to come
   std::size_t first_point_ = 0, point_count_ = 0;
   double phase_ = 0;  // phase of the tone, in turns
   Noise noise_;

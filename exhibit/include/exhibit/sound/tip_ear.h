@@ -11,32 +11,32 @@
 
 namespace afm::exhibit {
 
-// An event with its time and, if it has one, its force.
+// An event with its time and, if any, its force.
 struct Heard {
   HeardEvent event = HeardEvent::SnapIn;
   std::int64_t time_ns = 0;  // CLOCK_MONOTONIC, interpolated if the servo interpolates
-  double force_n = 0;        // on the tip, positive away from the sample; of a slip or a particle, its size; 0: none;
-                             // negative for a particle astray on the left
+  double force_n = 0;        // force on the tip, positive away from the sample; slip or particle: magnitude; 0: none;
+                             // negative: particle astray on the left
   std::int32_t material = -1;
 };
 
 // Converts an event of the servo.
 Heard heard_of(const scene::TipEvent& event);
 
-// Stereo position of a signal: for a jump, that of its force; for a particle astray its side; otherwise the middle.
+// Stereo position of a signal: for a jump, that of its force; for a particle astray, its side; otherwise the middle.
 double side_of(const Heard& heard, const Ear& ear);
 
 // Returns whether the force is audible as a tone.
 bool is_audible(const scene::TipSample& sample);
 
-// Derives events from the servo's samples: the force is switched on or off, the tip touches, and a pushed particle goes
+// Derives events from the servo's samples: the force is switched on or off, the tip touches, or a pushed particle goes
 // astray. Another touch is reported only after the tip was free or pulled. One thread.
 class TipEar {
  public:
   // Adds a sample; call in order of time. Returns at most one event.
   std::optional<Heard> add(const scene::TipSample& sample);
 
-  // The push in the newest sample.
+  // Push in the newest sample.
   const HeardPush& push() const { return push_.push(); }
 
  private:

@@ -20,7 +20,7 @@ struct MonoWav {
 };
 std::optional<MonoWav> parse_mono_wav(std::string_view bytes);
 
-// Resampled by linear interpolation, which suffices for a voice.
+// Voice resampled by linear interpolation, which is accurate enough for speech.
 std::vector<float> resampled(const MonoWav& wav, int rate_hz);
 
 }  // namespace afm::exhibit

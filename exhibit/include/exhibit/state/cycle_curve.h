@@ -12,7 +12,7 @@ namespace afm::exhibit {
 
 // The growing force-displacement curve of one cycle: all samples of the servo while its force was enabled and the tip
 // had been lifted, and both ends of each jump, exactly where it happened. Split at the deepest push into approach and
-// retract. For a lever that taps it holds the amplitude in nm instead of the force.
+// retract. In tapping mode it holds the amplitude in nm instead of the force.
 class CycleCurve {
  public:
   void add(const scene::TipSample& sample);
@@ -26,7 +26,7 @@ class CycleCurve {
 
   render::PlotCurve plot(std::string label, const glm::vec3& color) const;
 
-  // All of its state, for exhibit/cluster/wall_history.h.
+  // All of its state, for storage by exhibit/cluster/wall_history.h.
   template <class Curve, class Visit>
   static void visit_state(Curve& curve, Visit&& visit) {
     visit(curve.points_);

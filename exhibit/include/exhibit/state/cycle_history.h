@@ -11,8 +11,8 @@
 
 namespace afm::exhibit {
 
-// One curve per material: the running cycle, or the last complete one until the tip touches again. A material's curve
-// is discarded when other parameters of the material have taken effect. Memory is bounded even if the tip rests for
+// One curve per material: the running cycle, or the last complete one until the tip touches again. Discards a
+// material's curve when new parameters have taken effect. Memory is bounded even if the tip rests for
 // long. One thread.
 class CycleHistory {
  public:
@@ -23,10 +23,10 @@ class CycleHistory {
 
   std::span<const CycleCurve> curves() const { return curves_; }
   bool ascending() const { return ascending_; }  // direction of the hand's last motion
-  bool pressed() const { return pressed_; }      // below Z = 0 since the tip touched
-  int cycles() const { return cycles_; }         // number since the material was put under the tip
+  bool pressed() const { return pressed_; }      // true: below Z = 0 at some time since the tip touched
+  int cycles() const { return cycles_; }         // number of cycles since the material was put under the tip
 
-  // All of its state, for exhibit/cluster/wall_history.h.
+  // All of its state, for storage by exhibit/cluster/wall_history.h.
   template <class History, class Visit>
   static void visit_state(History& history, Visit&& visit) {
     for (auto& curve : history.curves_) CycleCurve::visit_state(curve, visit);
@@ -47,16 +47,16 @@ class CycleHistory {
   void begin(const scene::TipSample& sample);
 
   std::vector<CycleCurve> curves_;
-  CycleCurve next_;  // the next cycle's approach, since the tip let go
+  CycleCurve next_;  // approach of the next cycle, since the tip came off
   std::int32_t material_ = -1;
   std::uint32_t edit_revision_ = 0;
   bool attached_ = false;
-  bool released_ = false;  // the material's curve is complete
+  bool released_ = false;  // true: material's curve complete
   bool pressed_ = false;
   bool ascending_ = false;
   int cycles_ = 0;
-  double turn_height_m_ = 0;   // the hand's extreme height in its direction
-  double drawn_height_m_ = 0;  // the hand's height at the newest sample kept
+  double turn_height_m_ = 0;   // extreme height of the hand in its current direction
+  double drawn_height_m_ = 0;  // height of the hand at the newest stored sample
 };
 
 }  // namespace afm::exhibit

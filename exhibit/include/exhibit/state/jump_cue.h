@@ -13,16 +13,16 @@ namespace afm::exhibit {
 
 class Phrases;
 
-// Time for which a jump is shown: its word, its number and the lever as it was; and, shorter, its ring of light. A CPU
-// device draws two frames a second, so a shorter cue might never be drawn.
+// Durations of a jump's display: of its word, its number and the lever as it was; and, shorter, of its ring of light. A
+// CPU device draws two frames a second, so a shorter cue might never be drawn.
 inline constexpr double kCueSeconds = 1.5, kRingSeconds = 1.0;
 
-// A recent jump of the tip, or of the state of a lever that taps, as it was when it happened: nothing in it follows the
+// A recent jump of the tip, or of the state in tapping mode, frozen as it was when it happened: it does not follow the
 // tip.
 struct JumpCue {
   physics::EventKind kind = physics::EventKind::JumpToContact;
-  float force_n = 0;  // before a jump off contact, after any other
-  double age_s = 0;   // 0 to kCueSeconds
+  float force_n = 0;  // force before a jump off contact, after any other jump
+  double age_s = 0;   // time since the jump, 0 to kCueSeconds
 };
 
 template <class Visit, scene::RecordOf<JumpCue>... Record>
@@ -65,11 +65,11 @@ std::optional<JumpCue> jump_cue(std::span<const scene::TipEvent> events, std::in
 // repulsive state it closes in on the apex, for the way back it spreads from it. Both fade.
 struct CueRing {
   glm::vec3 color{0.0F};  // linear radiance
-  double radius = 0;      // in radii of the contact's shade
+  double radius = 0;      // radius in units of the contact's shade
 };
 CueRing cue_ring(const JumpCue& cue);
 
-// "snap-in −0.41 nN", "repulsive +0.31 nN": the word and the number of the jump.
+// Word and number of the jump: "snap-in −0.41 nN", "repulsive +0.31 nN".
 std::string cue_text(const JumpCue& cue, const Phrases& phrases);
 
 }  // namespace afm::exhibit

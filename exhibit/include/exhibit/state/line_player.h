@@ -9,24 +9,24 @@ namespace afm::exhibit {
 // along the retrace. One thread.
 class LinePlayer {
  public:
-  static constexpr double kSeconds = 1.0;  // time for both ways, whatever the line's length
+  static constexpr double kSeconds = 1.0;  // time for trace and retrace together, whatever the line's length
 
   struct Place {
-    double along = 0.5;      // share of the image's width, from its left edge
-    double height_m = 0;     // height as measured there
-    double error_n = 0;      // normal force beside the setpoint, as measured there; zero in tapping mode
-    bool returning = false;  // retrace instead of trace
+    double along = 0.5;      // fraction of the image's width, from the left edge
+    double height_m = 0;     // height measured at that place
+    double error_n = 0;      // error signal measured at that place; zero in tapping mode
+    bool returning = false;  // true: on the retrace; false: on the trace
   };
 
-  // Begins with the first pixel of the trace. A line without pixels is over at once.
+  // Begins with the first pixel of the trace. A line without pixels ends at once.
   void begin(physics::ScanLine line);
 
-  // Lets time pass.
+  // Advances the playback.
   void advance(double seconds);
 
   bool playing() const { return seconds_ < kSeconds; }
 
-  // Between two pixels linear. Only while playing().
+  // Place on the line, interpolated between two pixels. Only while playing().
   Place place() const;
   std::size_t row() const { return line_.row; }
 

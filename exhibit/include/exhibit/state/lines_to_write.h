@@ -6,9 +6,9 @@
 
 namespace afm::exhibit {
 
-// Lines that a tip is to write into a soft sample, in its frame, metres of the nanoworld.
+// Lines for a tip to write into a soft sample, in the sample's frame, metres of the nanoworld.
 struct LinesToWrite {
-  std::vector<std::vector<glm::dvec2>> lines_m;  // corners of each line in order, two or more
+  std::vector<std::vector<glm::dvec2>> lines_m;  // corners of each line in order, at least two
   double width_m = 0;                            // wanted width of the groove, at the height of the level sample
 };
 

@@ -19,10 +19,10 @@ namespace afm::exhibit {
 // Events of a finished cycle, magnitudes.
 struct CycleResult {
   std::string title;
-  std::string law;  // "dmt"
+  std::string law;  // word of the force law, such as "dmt"
   bool hysteretic = true;
   double f_attr_n = 0, f_ad_n = 0, z_jtc_m = 0, z_joc_m = 0;
-  bool taps = false;  // the lever taps: its jumps have heights only
+  bool taps = false;  // true: lever in tapping mode, whose jumps have only heights
 };
 
 class LiveScan;
@@ -31,18 +31,18 @@ class LiveScan;
 struct Moment {
   WallState wall;
   scene::ServoState servo_state = scene::ServoState::Disarmed;
-  bool stopped = false;  // a person's Stop as the cause of a Fault
+  bool stopped = false;  // true: Fault caused by a person's Stop
   physics::Phase phase = physics::Phase::WaitForLift;
-  bool by_wand = false;     // a wand points, not a mouse
-  bool retracting = false;  // after the deepest push of this cycle
+  bool by_wand = false;     // true: pointing with a wand; false: with a mouse
+  bool retracting = false;  // true: after the deepest push of this cycle
   bool realtime = false;
   double slow_motion = 1;  // factor as in scene::ActiveContact
   std::string guidance;
   std::string letters;                 // labels of the keyboard, as render::Window::letters() returns them
   std::vector<render::DataRow> servo;  // rows from servo_rows()
-  // one per material, empty until it has been felt; the current one is drawn in front
+  // curves of all materials, empty until felt; the current one is drawn in front
   std::span<const CycleCurve> curves;
-  const LiveScan* scan = nullptr;    // replaces the curves by its images; may be null
+  const LiveScan* scan = nullptr;    // scan whose images replace the curves; may be null
   std::vector<CycleResult> results;  // results of the finished cycles, for Centerpiece::Plot
 };
 
@@ -78,7 +78,7 @@ Moment moment_of(const scene::TipState& tip, bool retracting);
 Moment moment_of(const servo::RecordedSession& session, std::size_t material, std::int64_t time_ns,
                  std::span<const CycleCurve> curves);
 
-// Returns whether the tip is on its way back from the deepest push of its cycle.
+// True if the tip is on its way back from the deepest push of its cycle.
 bool is_retracting(double z_m, double deepest_z_m);
 
 }  // namespace afm::exhibit

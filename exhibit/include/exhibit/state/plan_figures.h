@@ -11,9 +11,9 @@ namespace afm::exhibit {
 // Demands of a planned push on a hand (docs/manipulation.md, M12 and M14), with rho the distance of tip and sphere
 // at touch, the apex on the sample.
 struct PlanFigures {
-  physics::Length left;    // from the centre of the sphere to its planned place
+  physics::Length left;    // distance from the centre of the sphere to its planned place
   physics::Length aim;     // rho/cosh(left/rho): offset with which a push without steering does not lose the sphere
-  physics::Velocity hand;  // rho in the hand over physics::kSteeringDelay; 0 before the scale of the hand is known
+  physics::Velocity hand;  // rho in the hand over physics::kSteeringDelay; 0 until the scale of the hand is known
 };
 
 // Empty without a plan for a sphere of the set.

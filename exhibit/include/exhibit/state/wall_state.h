@@ -22,25 +22,25 @@ enum class Centerpiece { Instrument, Plot, Analogy, Journey };
 // State that moves, shows or hides the objects on the wall. Sessions and the messages of a wall of several machines
 // contain every described field except those listed in DescribedWall.*.
 struct WallState {
-  std::optional<std::size_t> material{};  // empty: no sample on the stage yet
+  std::optional<std::size_t> material{};  // index of the sample on the stage; empty: none yet
   scene::Tip tip{};
-  scene::Swing swing{};      // swing of a lever that taps; none: it does not
-  bool stroboscope = false;  // slowed-down view of the lever within its swing
-  double strobe_turns = 0;   // place in that slow swing, 0 to 1 from its lowest point
+  scene::Swing swing{};      // swing of a lever in tapping mode; zero otherwise
+  bool stroboscope = false;  // true: slow-motion view of the lever within its swing
+  double strobe_turns = 0;   // position in that slow swing, 0 to 1 from its lowest point
   scene::SurfacePoint surface{};
-  double release_z_m = 0;  // with the tip's current parameters; 0: with the material's
+  double release_z_m = 0;  // release height with the tip's current parameters; 0: with the material's own
   std::optional<std::size_t> hovered{};
   std::optional<input::WandState> wand{};
   Centerpiece centerpiece = Centerpiece::Instrument;
   double journey_orders = 0;   // used for Centerpiece::Journey; see exhibit/journey.h
-  double fade = 0;             // dissolved share of the picture, 0 to 1
-  glm::dmat4 navigation{1.0};  // room from room: the user's motion, rotation and scaling of sample and instrument
+  double fade = 0;             // dissolved fraction of the picture, 0 to 1
+  glm::dmat4 navigation{1.0};  // room from room: motion, rotation and scaling of sample and instrument by the user
   std::optional<JumpCue> cue{};
-  bool false_colours = false;  // the sample's heights lie on it as colours; an image that is taken has its own
-  bool scan = false;           // a scan is running: its panel replaces the curve
-  // the scan line, from left to right, at the height of the highest place below it; sample's frame, metres
+  bool false_colours = false;  // true: sample coloured by its heights; the image of a scan has its own colours
+  bool scan = false;           // true: running scan, whose panel replaces the curve
+  // scan line from left to right, at the height of the highest place below it; sample's frame, metres
   std::optional<std::array<glm::dvec3, 2>> scan_line{};
-  const ParticlesNow* particles = nullptr;  // replaces the sample's data by its panel; may be null
+  const ParticlesNow* particles = nullptr;  // particles, whose panel replaces the sample's data; may be null
 };
 
 template <class Visit, scene::RecordOf<WallState>... Record>

@@ -32,24 +32,24 @@ enum class Hint {
 // Progress of the current cycle.
 struct StepsDone {
   bool ascending = false;  // direction of the hand's last motion
-  bool pressed = false;    // below Z = 0 since the tip touched
-  bool let_go = false;     // since the force was switched on
+  bool pressed = false;    // true: below Z = 0 at some time since the tip touched
+  bool let_go = false;     // true: pull-off since the force was switched on
 };
 
 // Progress counted by CycleHistory.
 struct CycleProgress {
   bool ascending = false;
   bool pressed = false;
-  int cycles = 0;  // number on the sample under the tip
+  int cycles = 0;  // number of cycles on the sample under the tip
 };
 
-// True if the hand has the scale on which the tip pushes particles, where a cycle of approach and retract is no goal.
+// True if the hand is on the scale on which the tip pushes particles, where a cycle of approach and retract is no goal.
 bool pushes_particles(const scene::TipState& tip);
 
 // Next step of the procedure, derived from the tip's real events.
 Hint next_step(const scene::TipState& tip, const StepsDone& done);
 
-// Lines on leaving a view that replaces the instrument, and on showing the list of keys.
+// Lines on how to leave a view that replaces the instrument, and on how to show the list of keys.
 enum class Note { Keys, LeaveJourney, LeaveAnalogy };
 const std::string& note_text(const Phrases& phrases, Note note);
 
@@ -59,7 +59,7 @@ std::string step_text(const Phrases& phrases, Hint hint, const Controls& control
 // One line for the wall: the reason if the force went off without a person's Stop, and the next step.
 std::string guidance_line(const Phrases& phrases, Hint hint, const scene::TipState& tip, const Controls& controls);
 
-// Line on choosing a sample, for the panel of the sample's data while there is none.
+// Line on how to choose a sample, for the panel of the sample's data while there is none.
 std::string no_sample_advice(const Phrases& phrases, Pointer pointer);
 
 }  // namespace afm::exhibit

@@ -152,7 +152,7 @@
   PHRASE(InkTension, "ink-tension", "", kLine)           \
   PHRASE(InkLever, "ink-lever", "", kLine)
 
-// A lever that taps: the plot of its amplitude, its dial, and images beside it.
+// A lever in tapping mode: the plot of its amplitude, its dial, and its images.
 #define AFM_FOR_EACH_TAPPING_PHRASE(PHRASE)                           \
   PHRASE(PlotTitleTapping, "plot-title-tapping", "", kLine)           \
   PHRASE(PlotTitleDirect, "plot-title-tapping-direct", "", kLine)     \

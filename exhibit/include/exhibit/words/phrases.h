@@ -31,7 +31,7 @@ enum class Phrase : std::size_t { AFM_FOR_EACH_PHRASE(AFM_PHRASE_NAME) };
 
 struct PhraseRow {
   std::string_view key;     // key in the phrase files
-  std::string_view places;  // "tip medium": placeholders without their braces
+  std::string_view places;  // names of the placeholders without braces: "tip medium"
   std::size_t limit;        // largest number of characters
 };
 
@@ -47,7 +47,7 @@ constexpr std::size_t place_count(Phrase phrase) {
   return count;
 }
 
-// The phrase `steps` rows below, in a run of rows with the order of an enumeration.
+// Phrase `steps` rows below `first`, in a run of rows with the order of an enumeration.
 constexpr Phrase after(Phrase first, std::size_t steps) {
   return static_cast<Phrase>(static_cast<std::size_t>(first) + steps);
 }
@@ -60,7 +60,7 @@ class Phrases {
   // Requires every phrase. The error names file, line and key.
   static core::Result<Phrases> load(const std::string& path);
 
-  // The same for a user's file; phrases that it lacks come from `base`.
+  // Same for a user's file; phrases that it lacks come from `base`.
   static core::Result<Phrases> load(const std::string& path, const Phrases& base);
 
   // Text as in the file, for phrases without placeholders.
@@ -74,7 +74,7 @@ class Phrases {
     return filled(phrase, values);
   }
 
-  // The same for a phrase chosen at run time. Values are not changed.
+  // Same for a phrase chosen at run time. Values are not changed.
   std::string filled(Phrase phrase, std::span<const std::string> values) const;
 
   // Translation of a word, or of the word before a number ("Gold 0.1 N/m"); otherwise the word itself.

@@ -14,7 +14,7 @@ class Procedure {
  public:
   static constexpr std::int64_t kReadableNs = 3'000'000'000;
 
-  // Call once a frame. A hint is replaced early only if the force goes, comes or is off, or the sample changes. "It let
+  // Call once a frame. A hint is replaced early only if the force is switched on or off, or the sample changes. "It let
   // go" is shown after every cycle, even if the next one follows at once.
   Hint update(const scene::TipState& tip, const CycleProgress& progress, std::int64_t now_ns);
 
@@ -25,8 +25,8 @@ class Procedure {
   std::int64_t shown_since_ns_ = 0;
   std::int32_t material_ = -1;
   int cycles_ = 0;
-  bool let_go_ = false;      // since the force was switched on
-  bool reward_due_ = false;  // the tip has let go, but the wall has not shown it yet
+  bool let_go_ = false;      // true: pull-off since the force was switched on
+  bool reward_due_ = false;  // true: pull-off not yet announced on the wall
 };
 
 }  // namespace afm::exhibit

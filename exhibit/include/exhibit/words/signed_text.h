@@ -5,10 +5,10 @@
 
 namespace afm::exhibit {
 
-// "\u22120.407 nN": the value with a typographic sign, without one if it rounds to zero.
+// Value with a typographic sign, or without one if it rounds to zero: "\u22120.407 nN".
 std::string signed_text(double value, int decimals, const char* unit);
 
-// A force in nanonewtons, with the two decimals that a glance can take in.
+// A force in nanonewtons, with two decimals, which can be read at a glance.
 std::string force_text(double force_n);
 
 }  // namespace afm::exhibit
