@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Only main(): the linker hides our template instances of the standard library if they come from an archive
+// Contains only main(): the linker hides our template instances of the standard library if they come from an archive
 // (--exclude-libs) but not if they come from this object, and a driver would call them instead of its copies.
 #include "app/commit.h"
 #include "app/program.h"

@@ -35,7 +35,7 @@ std::string language_of_environment() {
   return exhibit::language_of_locale(values);
 }
 
-// Detected here, because the parser would only report a missing command.
+// True for an unknown command, detected here because the parser would only report a missing one.
 bool names_unknown_command(int count, char** arguments) {
   if (count < 2 || arguments[1][0] == '-') return false;
   const std::string_view name = arguments[1];

@@ -5,7 +5,7 @@
 
 namespace afm::app {
 
-// The first lines of the program's help: its name and purpose, then the exit codes.
+// First lines of the program's help: its name and purpose, then the exit codes.
 inline constexpr const char* kProgramHelp =
     "TouchAFM: feel and see the approach-retract cycle of an atomic force microscope.\n"
     "Exit codes: 0 done, 1 the run failed or was interrupted, 2 wrong usage, 3 bad input file, 4 a required device is "

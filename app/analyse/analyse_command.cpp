@@ -67,8 +67,8 @@ enum class FileKind { Curve, Image, Session };
 struct FileKindRow {
   FileKind kind;
   const char* word;
-  const char* one;   // "an image"
-  const char* many;  // "images"
+  const char* one;   // noun with article, such as "an image"
+  const char* many;  // plural, such as "images"
   const char* formats;
   bool (*begins)(const std::string& file);
 };
@@ -156,7 +156,7 @@ core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<
   return {};
 }
 
-// The file of a plot: an older plot is replaced, a measurement never.
+// Checks the file of a plot: an older plot is replaced, a measurement never.
 core::Result<void> check_plot(const std::string& path) {
   if (const auto writable = core::check_writable(path); !writable) {
     return wrong_usage("--out: " + writable.error().message);
@@ -166,7 +166,7 @@ core::Result<void> check_plot(const std::string& path) {
       fmt::format("--out {}: it is {}, which a plot would replace; name a new file", path, row_of(path)->one));
 }
 
-// "0um:1.5um", ways from the outermost point of the approach.
+// Parses "0um:1.5um", distances from the outermost point of the approach.
 core::Result<physics::WayRange> parse_way_range(const std::string& text) {
   const std::size_t colon = text.find(':');
   const auto from = physics::parse_quantity(text.substr(0, colon), physics::kLengthUnits);
@@ -179,7 +179,7 @@ core::Result<physics::WayRange> parse_way_range(const std::string& text) {
   return physics::WayRange{*from.value, *to.value};
 }
 
-// The options write into `baseline` while the parser lives.
+// Adds options that write into `baseline` while the parser lives.
 template <class Add>
 void add_baseline_options(OptionList& command, physics::BaselineChoice& baseline, const Add& add) {
   add("--baseline",
@@ -201,7 +201,7 @@ void add_baseline_options(OptionList& command, physics::BaselineChoice& baseline
           .type_name("RANGE"));
 }
 
-// The options write into `options` while the parser lives.
+// Adds options that write into `options` while the parser lives.
 std::vector<OptionOfKind> add_curve_options(OptionList& command, AnalyseOptions& options) {
   std::vector<OptionOfKind> added;
   const auto for_curves = [&added](const std::string& name, const Option& option) {

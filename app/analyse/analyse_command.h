@@ -15,13 +15,13 @@ namespace afm::app {
 struct AnalyseOptions {
   std::string file;
   curves::CurveReading reading;                          // overrides the file's own settings
-  std::optional<physics::ContactMethod> contact_method;  // empty: chosen from the curve
+  std::optional<physics::ContactMethod> contact_method;  // method of finding the contact; empty: chosen from the curve
   physics::BaselineChoice baseline;
   std::string beside;  // second curve for comparison, measured or computed
   bool json = false;
-  std::string out;  // SVG of the curve, in addition to the text
+  std::string out;  // SVG file of the curve, in addition to the text
   curves::FitOptions fit;
-  int threads = 0;      // number for a table of fits; zero: one for each core
+  int threads = 0;      // number of threads for a table of fits; 0: one per core
   std::string channel;  // name of an image's channel
   physics::Levelling levelling = physics::Levelling::Plane;
 };

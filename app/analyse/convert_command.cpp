@@ -28,7 +28,7 @@ struct ConvertOptions {
 };
 
 core::Result<void> convert(const ConvertOptions& options) {
-  std::error_code none;  // a missing file is no other name of the first one
+  std::error_code none;  // unused, since a missing file is no other name of the first one
   if (std::filesystem::equivalent(options.from, options.to, none)) {
     return core::wrong_usage(fmt::format("{} and {} are one file, which would be lost", options.from, options.to));
   }

@@ -63,7 +63,7 @@ std::string reasons(const fits::ElasticFit& fit) {
   return text;
 }
 
-// Settings of the fit by their columns; a size that the shape lacks is empty.
+// Settings of the fit by column; a size that the shape lacks is empty.
 std::vector<std::pair<std::string, std::string>> settings_of(const curves::FitOptions& options) {
   const fits::ShapeRow& shape = fits::row_of(*options.shape);
   const auto cell = [](bool has, double value) { return has ? fmt::format("{}", value) : std::string(); };
@@ -97,7 +97,7 @@ FitMaps::Texts map_texts(const curves::FitOptions& options) {
 
 std::string cell(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string(); }
 
-// Name of the curve, place at which it was recorded, and its figures without a fit.
+// Name of the curve, position of its recording, and its figures without a fit.
 std::string features(std::size_t index, const curves::FittedCurve& fitted) {
   const auto& position = fitted.position;
   const auto& pixel = fitted.pixel;
@@ -217,7 +217,7 @@ class Summary {
 
  private:
   std::size_t done_ = 0, unread_ = 0;
-  std::array<std::size_t, 3> trusts_{};  // in the order of Trust
+  std::array<std::size_t, 3> trusts_{};  // counts in the order of Trust
   std::vector<double> moduli_pa_;
 };
 
@@ -273,7 +273,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   Summary summary;
   FitPage page;
   std::size_t whole_files = 0;
-  core::Result<void> drawn;  // the first failure of a picture, which costs no fit
+  core::Result<void> drawn;  // first failure of a picture, which costs no fit
   {
     FitPool pool(files, options, threads);
     Progress progress;

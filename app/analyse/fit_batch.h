@@ -9,8 +9,8 @@
 
 namespace afm::app {
 
-// Fits every curve of each file and writes FOLDER/fits.tsv, a row a curve in the order given, as soon as it and all
-// before it are known: an interruption leaves the rows so far. A curve that cannot be read or fitted is a row with the
+// Fits every curve of each file and writes FOLDER/fits.tsv, one row per curve in the given order, as soon as it and all
+// before it are known: an interruption leaves the rows so far. An unreadable or unfitted curve is a row with the
 // reason. Writes the maps of each file whose curves have pixels, and the histograms of all moduli. The bytes do not
 // depend on `threads`. `options` has a prepared fit; its `out` is the folder, which is created if it does not
 // exist. Prints how many were trusted, and the figures of the trusted and the doubtful. WrongUsage if the table exists

@@ -32,10 +32,10 @@ std::optional<double> trust_of(const Cell& cell) {
 }
 
 struct MapRow {
-  const char* word;  // in names of files
+  const char* word;  // part of file names
   const char* title;
   const char* unit;
-  bool striped;  // shows which fits are not trusted
+  bool striped;  // true: untrusted fits striped
   std::optional<double> (*value)(const Cell& cell);
 };
 constexpr std::array kMaps{
@@ -54,7 +54,7 @@ bool is_free(const std::string& name) {
          });
 }
 
-// FOLDER/NAME, or FOLDER/NAME-2 and so on: the first of which there is no file.
+// Path FOLDER/NAME, or FOLDER/NAME-2 and so on: the first one without a file.
 std::string free_name(const std::string& folder, const std::string& name) {
   const std::string first = (std::filesystem::path(folder) / name).string();
   std::string found = first;

@@ -25,7 +25,7 @@ std::string table(const std::string& heading, const std::vector<std::string>& na
          "\n";
 }
 
-// Empty if the list is whole.
+// Note on the rows left out; empty if the list is complete.
 std::string rest_note(std::size_t shown, std::size_t all) {
   return shown < all ? curves::html_note(fmt::format("{} more are in fits.tsv.", all - shown)) : std::string();
 }

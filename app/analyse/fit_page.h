@@ -21,31 +21,31 @@ class FitPage {
 
   using Texts = std::vector<std::pair<std::string, std::string>>;
 
-  // The following curves are those of this file, in order.
+  // Begins a file; the following curves are its curves, in order.
   void begin(const std::string& file);
   void add(const curves::FittedCurve& fitted);
-  void add_map(std::string png);  // bytes of a picture of the current file
+  void add_map(std::string png);  // PNG bytes for the current file
 
-  // `results` has a line each; `settings` are those of the fit by their columns; `histograms` is SVG, or empty.
+  // `results` has one line per entry; `settings` are those of the fit by column; `histograms` is SVG, or empty.
   std::string html(const std::vector<std::string>& results, const Texts& settings, const std::string& histograms) const;
 
  private:
   struct FileRow {
     std::string name;
     std::size_t curves = 0, unread = 0;
-    std::array<std::size_t, 3> trusts{};  // in the order of Trust
-    double median_pa = 0;                 // median of the trusted and the doubtful; 0: none
+    std::array<std::size_t, 3> trusts{};  // counts in the order of Trust
+    double median_pa = 0;                 // median of trusted and doubtful fits; 0: none
   };
   struct Unfitted {
     std::string file;
-    std::size_t index;  // number of the curve
+    std::size_t index;  // number of the curve in the file
     std::string why;
   };
   struct Picture {
     std::string file, png;
   };
 
-  FileRow with_median() const;  // current file
+  FileRow with_median() const;  // row of the current file
   std::string files_html() const;
   std::string doubts_html() const;
   std::string unfitted_html() const;

@@ -60,7 +60,7 @@ bool FitPool::wait(const Ready& ready) {
   return true;
 }
 
-// Shares of a file that is begun go before the next file: the results of the first are wanted first.
+// Works on shares. Those of a file already begun go before the next file, whose results are needed later.
 void FitPool::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (!stop.stop_requested()) {
@@ -93,7 +93,7 @@ void FitPool::begin(std::size_t file) {
     if (!counted) why = counted.error().message;
     begun.count = counted.value_or(1);
     begun.curves.resize(*begun.count);
-  } catch (const std::exception& error) {  // more curves than this machine's memory holds
+  } catch (const std::exception& error) {  // more curves than fit into this machine's memory
     why = fmt::format("cannot fit {}: {}", files_[file], error.what());
     begun.count = 1;
     begun.curves.resize(1);

@@ -18,8 +18,8 @@
 
 namespace afm::app {
 
-// Fits the curves of files on several threads, which share a file with several curves, and hands the results out in
-// order. What was not taken is kept: some hundred bytes a curve. One thread calls it.
+// Fits the curves of files on several threads, which share a file with several curves, and returns the results in
+// order. Keeps results until they are taken: some hundred bytes per curve. One thread calls it.
 class FitPool {
  public:
   // Files and options must outlive the object. `options` has a prepared fit.
@@ -32,13 +32,13 @@ class FitPool {
   std::optional<std::size_t> count(std::size_t file);
 
   // Waits for the result of one curve, which can be taken once. Empty after an interruption.
-  // Those of a file are taken in order, from the first on.
+  // Results of a file must be taken in order, from the first on.
   std::optional<curves::FittedCurve> take(std::size_t file, std::size_t curve);
 
   // False if the next take() may have to wait.
   bool has_next() const { return !next_.empty(); }
 
-  // Frees what is left of a file's results.
+  // Frees the remaining results of a file.
   void forget(std::size_t file);
 
  private:
@@ -66,12 +66,12 @@ class FitPool {
   const unsigned threads_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::size_t next_file_ = 0;  // first that is not begun
+  std::size_t next_file_ = 0;  // first file not yet begun
   std::size_t beginning_ = 0;  // files whose curves are being counted
   std::deque<Share> shares_;
   std::vector<Results> results_;
   std::deque<curves::FittedCurve> next_;  // results for the thread that takes them
-  std::vector<std::jthread> workers_;     // last: they end before what they use
+  std::vector<std::jthread> workers_;     // last members: they end before the objects that they use
 };
 
 }  // namespace afm::app

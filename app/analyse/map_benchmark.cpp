@@ -46,7 +46,7 @@ struct MapTimes {
   double memory_bytes = 0;                            // peaks of this process and of its largest child together
 };
 
-// The time of something; it returns what it has counted.
+// Times `work`, which returns a count.
 template <class Work>
 double time_of_work(std::size_t& count, const Work& work) {
   const core::MonotonicClock clock;
@@ -59,7 +59,7 @@ double seconds_in(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-// Processor time of this program and of the readers that have ended.
+// Processor time of this program, including the readers that have ended.
 double processor_s() {
   double sum = 0.0;
   for (const int of : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -70,7 +70,7 @@ double processor_s() {
   return sum;
 }
 
-// Keeps this thread, and those and the readers that it starts, on one processor: otherwise a reader works beside its
+// Keeps this thread, and the threads and readers that it starts, on one processor: otherwise a reader works beside its
 // thread, and one thread is no measure for two.
 class OnOneProcessor {
  public:
@@ -96,7 +96,7 @@ class OnOneProcessor {
   bool bound_ = false;
 };
 
-// Runs `unzip -t`. False if there is no such program, or the file is no archive.
+// Runs `unzip -t`. False if the program is missing, or the file is no archive.
 bool unzips(const std::string& file) {
   std::array<std::string, 3> words{"unzip", "-tqq", file};
   const std::array arguments{words[0].data(), words[1].data(), words[2].data(), static_cast<char*>(nullptr)};
@@ -110,7 +110,7 @@ bool unzips(const std::string& file) {
   return started && ::waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// Reads every curve, and forgets it.
+// Reads every curve and discards it; returns the number of unreadable ones.
 std::size_t unread_of(const std::string& file, const MapTimes& times, const curves::CurveReading& reading) {
   std::atomic<std::size_t> unread{0};
   std::vector<std::jthread> readers;

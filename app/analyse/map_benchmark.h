@@ -5,7 +5,7 @@
 
 namespace afm::app {
 
-// touchafm bench maps: the time in which the curves of a file are read, and fitted on one core and on all, next to that
+// touchafm bench maps: time to read the curves of a file, and to fit them on one core and on all, compared with that
 // of `unzip -t` for a zip archive.
 void add_map_benchmark(OptionList& bench);
 

@@ -31,7 +31,7 @@ struct ClusterBenchOptions {
   ClusterTimingPlan plan;
   std::string interface_address = "127.0.0.1";
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
-  int answer = -1;  // answers as this node instead of measuring
+  int answer = -1;  // node as which to answer instead of measuring; -1: none
   bool elsewhere = false;
   bool json = false;
 };

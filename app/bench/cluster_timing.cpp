@@ -22,11 +22,11 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kSamplesAFrame = 17;  // one frame of a servo at 1 kHz
+constexpr int kSamplesAFrame = 17;  // samples of one frame, with a servo at 1 kHz
 constexpr auto kDrawing = std::chrono::milliseconds(2);
 constexpr std::int64_t kComeNs = 20'000'000'000;  // longest wait until the nodes have joined
-// A new reader misses what was written before its writer discovered it. A real node gets those records with the
-// history; here the first frames are not counted as lost, and by this number every node has noticed the gap.
+// Number of frames that are not counted as lost. A new reader misses data written before its writer discovered it. A
+// real node gets those records with the history; here every node has noticed the gap after this number of frames.
 constexpr int kFramesToJoin = 30;
 constexpr double kMsPerNs = 1e-6;
 
@@ -65,7 +65,7 @@ class SwapTimes {
   }
 
  private:
-  std::vector<cluster::ClockOffset> clocks_;  // one for each node
+  std::vector<cluster::ClockOffset> clocks_;  // one clock per node
   std::map<std::uint64_t, std::vector<std::pair<std::uint32_t, std::int64_t>>> shown_;
   std::map<std::uint64_t, std::int64_t> sent_;
 };

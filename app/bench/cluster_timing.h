@@ -20,14 +20,14 @@ struct ClusterTimingPlan {
 
 struct ClusterTiming {
   std::uint32_t frames = 0;
-  std::vector<double> skew_ms;          // a frame's time between the first and the last node that shows it
-  std::vector<double> latency_ms;       // from the sending of a frame to its showing at the slowest node
-  std::vector<double> barrier_ms;       // the master's wait at the barrier
-  std::vector<double> round_ms;         // a frame's way to a node and back, without the node's processing time
-  std::vector<double> clock_ms;         // by how much each node's clock is ahead of the master's
-  std::vector<std::uint64_t> timeouts;  // one number for each node
-  std::vector<std::uint64_t> lost;      // records of the journal that a node did not get
-  std::uint64_t resent_bytes = 0;       // lost on the way and sent again by the master
+  std::vector<double> skew_ms;          // time between the first and the last node's display of a frame
+  std::vector<double> latency_ms;       // time from the sending of a frame to its display at the slowest node
+  std::vector<double> barrier_ms;       // wait of the master at the barrier
+  std::vector<double> round_ms;         // round trip of a frame to a node, without the node's processing time
+  std::vector<double> clock_ms;         // lead of each node's clock over the master's
+  std::vector<std::uint64_t> timeouts;  // number for each node
+  std::vector<std::uint64_t> lost;      // number of journal records that each node did not receive
+  std::uint64_t resent_bytes = 0;       // bytes lost on the way and sent again by the master
   double cpu_share = 0;                 // the master process's share of one CPU
 };
 

@@ -44,19 +44,19 @@ struct HapticsBenchOptions {
   double seconds = 10.0;
   int rounds = 20;
   bool json = false;
-  std::string sample;  // a file; empty: a surface with the most points that are felt
+  std::string sample;  // file of a surface; empty: the largest surface that can be felt
 };
 
 struct Figures {
   std::vector<WorkFigure> work;
-  std::array<core::Percentiles, kReleases.size()> release_ms;  // in the order of kReleases
+  std::array<core::Percentiles, kReleases.size()> release_ms;  // times in the order of kReleases
   ServoWake wake;
-  std::vector<ParticleWorkFigure> particles;  // the first: the law alone
-  std::size_t frames = 0;                     // drawn alongside them
+  std::vector<ParticleWorkFigure> particles;  // figures; the first one: only the law
+  std::size_t frames = 0;                     // number drawn during the measurement
   std::string renderer;                       // name of the graphics device
 };
 
-// Those of the set gold-row.
+// Particles of the set gold-row.
 core::Result<std::unique_ptr<scene::SharedParticles>> gold_particles(const std::string& assets_dir) {
   const auto path = scene::particle_file("gold-row", assets_dir);
   if (!path) return tl::unexpected(path.error());

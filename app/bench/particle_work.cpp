@@ -33,7 +33,7 @@ struct Crowd {
   double tip_radius_m = 0;   // radius of the tip; 0: that of the set's tip
 };
 
-// On a square lattice, each aside by up to two fifths of the gap.
+// Places on a square lattice, each shifted by up to two fifths of the gap.
 std::vector<glm::dvec2> scattered(std::uint32_t count, double radius_m, double pitch_m) {
   const double most_m = 0.4 * (pitch_m - 2.0 * radius_m);
   std::mt19937 random(7);
@@ -50,7 +50,7 @@ std::vector<glm::dvec2> scattered(std::uint32_t count, double radius_m, double p
   return places_m;
 }
 
-// A hexagon of so many rings around a sphere, 0.1 nm apart.
+// Places in a hexagon of `rings` rings around a sphere, 0.1 nm apart.
 std::vector<glm::dvec2> heaped(int rings, double radius_m) {
   const double step_m = 2.0 * radius_m + 0.1e-9;
   std::vector<glm::dvec2> places_m;
@@ -63,7 +63,7 @@ std::vector<glm::dvec2> heaped(int rings, double radius_m) {
   return places_m;
 }
 
-// Spheres of this radius.
+// Crowds of spheres with this radius.
 std::vector<Crowd> crowds(double radius_m) {
   std::vector<Crowd> all{{.name = "the law alone", .places_m = {}}};
   for (const std::uint32_t count : {1U, 20U, 200U}) {
@@ -84,7 +84,7 @@ std::vector<Crowd> crowds(double radius_m) {
   return all;
 }
 
-// Tip, lever and first species of the set, in other places.
+// Copies tip, lever and first species of the set, with other places.
 void lay(const Crowd& crowd, const scene::SharedParticles& set, scene::SharedParticles& particles) {
   particles.pusher = set.pusher;
   if (crowd.tip_radius_m > 0.0) particles.pusher.tip_radius_m = crowd.tip_radius_m;
@@ -190,7 +190,7 @@ core::Result<ParticleWorkFigure> measure(const Crowd& crowd, const scene::Shared
 
 core::Result<std::vector<ParticleWorkFigure>> measure_particle_work(const scene::SharedParticles& set,
                                                                     std::size_t ticks) {
-  constexpr double kAloneMPerM = 2e5;  // scale of a few of the particles
+  constexpr double kAloneMPerM = 2e5;  // scale of a few particles
   std::vector<ParticleWorkFigure> figures;
   const std::vector<Crowd> all = crowds(set.species[0].radius_m);
   figures.reserve(all.size());

@@ -142,7 +142,7 @@ core::Result<std::vector<RenderSubject>> subjects_of(const RenderBenchOptions& o
   return subjects;
 }
 
-// The wall's figures with a limit, measured with the first and usual way of drawing.
+// Figures of the wall that have a limit, for the first and usual way of drawing.
 struct WallFigures {
   double frame_ms = 0, head_moving_ms = 0, at_rest_processor_ms = 0;
 };

@@ -23,7 +23,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kGrowthFrames = 4;  // each holds the places of all nodes
+constexpr int kGrowthFrames = 4;  // number of frames, each of which holds the places of all nodes
 
 // ---- the wall ----
 
@@ -33,7 +33,7 @@ constexpr int kTicksPerFrame = 40;
 constexpr double kHeadSway_m = 0.03;
 
 double height_at(double turn, double release_m) {
-  const double down = std::abs(2.0 * turn - 1.0);  // 1, 0, 1
+  const double down = std::abs(2.0 * turn - 1.0);  // course: 1, 0, 1
   return release_m * (kBottomOfRelease + (kTopOfRelease - kBottomOfRelease) * down);
 }
 
@@ -150,7 +150,7 @@ scene::Primitive cube() {
   return primitive;
 }
 
-constexpr double kBoxSide = 0.6;  // share of the distance between two boxes
+constexpr double kBoxSide = 0.6;  // relative to the distance between two boxes
 
 // The first `count` places of a grid in a cube.
 std::vector<glm::dvec3> places_in_cube(std::uint32_t count) {

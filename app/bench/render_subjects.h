@@ -24,7 +24,7 @@ struct RenderSubject {
   scene::Scene scene;
   render::RendererOptions drawing{};  // sizes of the eye images and panels
   bool eyes_move = true;
-  std::uint32_t things = 0;  // nodes or copies of a scene that shows how the time grows with them; 0: none such
+  std::uint32_t things = 0;  // number of nodes or copies in a scene of a growing series; 0: not in a series
   std::vector<render::FrameState> frames{};
 };
 
@@ -46,7 +46,7 @@ core::Result<RenderSubject> gltf_subject(const std::string& path, glm::uvec2 eye
 RenderSubject hills_subject(std::uint32_t quads, glm::uvec2 eye_px);
 RenderSubject boxes_subject(std::uint32_t count, glm::uvec2 eye_px);
 
-// The same boxes, as one of several scenes of growing size: separate nodes, or copies of the mesh of one node.
+// Same boxes in a series of growing scenes: as separate nodes, or as copies of the mesh of one node.
 RenderSubject growing_subject(std::uint32_t count, glm::uvec2 eye_px);
 RenderSubject copies_subject(std::uint32_t count, glm::uvec2 eye_px);
 

@@ -13,8 +13,8 @@ namespace afm::app {
 // Wake-up latency of an idle thread on this machine: a lower bound for the servo's.
 struct SchedulingLatency {
   haptics::RealtimeGrant grant;  // scheduling granted to the thread; its pages were not locked
-  std::uint64_t ticks = 0;       // deadlines with a wake-up
-  std::uint64_t missed = 0;      // deadlines that passed while an earlier one was late
+  std::uint64_t ticks = 0;       // number of deadlines with a wake-up
+  std::uint64_t missed = 0;      // number of deadlines that passed while an earlier one was late
   std::uint32_t max_us = 0;
   std::array<std::uint32_t, scene::kHistogramBins> late_us{};  // bins of 1 us; the last holds everything longer
 };

@@ -15,9 +15,9 @@ namespace afm::app {
 // A signal to the renderer's process that must end the force, and the longest time until the force is zero.
 struct Release {
   const char* name;
-  const char* what;  // event in the renderer while the hand is held
+  const char* what;  // end of a sentence: event in the renderer while the hand is held
   int signal;
-  scene::FaultCode fault;  // expected fault of the servo
+  scene::FaultCode fault;  // fault that the servo should report
   double bar_ms;
 };
 

@@ -34,7 +34,7 @@ constexpr double kTapP99_us = 5.0;
 constexpr double kFieldP50_us = 0.8;
 constexpr double kFieldP99_us = 1.0;
 
-constexpr std::size_t kHalfCycle = 600;  // ticks
+constexpr std::size_t kHalfCycle = 600;  // number of ticks
 constexpr double kTop_m = 0.060, kBottom_m = -0.015, kSideways_m = 0.03;
 
 enum class Ground { Plane, Surface, Measured, Map, Tapped };
@@ -76,7 +76,7 @@ scene::SharedHeightField rough_surface() {
   return field;
 }
 
-// The largest map of modulus and adhesion, with hills of both, about as wide as the hand's way.
+// Adds the largest map of modulus and adhesion, with hills of both, about as wide as the hand's path.
 void lay_map(scene::SharedModel& model) {
   constexpr double kWidthM = 300e-9;
   scene::SharedContact& rubber = model.materials[0];
@@ -130,7 +130,7 @@ scene::SharedModel model_of(const WorkCase& work, const MeasuredSurface& measure
   return model;
 }
 
-// The simulated person moves up and down and sideways without end.
+// Simulated person who moves up and down and sideways continuously.
 class Hand {
  public:
   explicit Hand(TimedServo& servo) : servo_(servo) {}
@@ -165,11 +165,11 @@ core::Result<WorkFigure> measure_case(const WorkCase& work, const MeasuredSurfac
   return WorkFigure{work.name, core::percentiles(std::move(us)), work.p50_bar_us, work.p99_bar_us};
 }
 
-// A silicon tip that a hand drags over PMMA with about 100 nN, there and back beside its own grooves: what a tick of
-// the servo has to do for it, with the tile that is published.
+// Measures a tick with a silicon tip that a hand drags over PMMA with about 100 nN, back and forth beside its own
+// grooves, including the tile that is published.
 core::Result<WorkFigure> measure_scratching(std::size_t ticks) {
   constexpr double kStepM = 0.3e-9, kBesideM = 3e-9, kHalfM = 150e-9, kPressedM = -106e-9, kOverM = 30e-9;
-  constexpr double kHalfAngle = 0.35;  // radians
+  constexpr double kHalfAngle = 0.35;  // in radians
   const auto pmma = std::make_unique<scene::SharedParticles>();
   pmma->pusher = {.tip_radius_m = 20e-9,
                   .half_angle_rad = kHalfAngle,
@@ -204,10 +204,10 @@ core::Result<WorkFigure> measure_scratching(std::size_t ticks) {
   return WorkFigure{"scratching PMMA", core::percentiles(std::move(us)), 0, kDearestBar_us};
 }
 
-// A tip that writes over what it has written, in circles about the middle of a dot of some 20 s.
+// Measures a tick with a tip that writes over its own ink, in circles about the middle of a dot of some 20 s.
 core::Result<WorkFigure> measure_writing(std::size_t ticks) {
-  constexpr double kOverM = 500e-9, kPressedM = -20e-9, kCircleM = 100e-9, kTurn = 0.005;  // radians a tick
-  constexpr int kSoaked = 20'000;                                                          // ticks
+  constexpr double kOverM = 500e-9, kPressedM = -20e-9, kCircleM = 100e-9, kTurn = 0.005;  // in radians per tick
+  constexpr int kSoaked = 20'000;                                                          // number of ticks
   const auto thiol = std::make_unique<scene::SharedParticles>();
   thiol->pusher = {.tip_radius_m = 20e-9, .half_angle_rad = 0.35, .normal_spring_n_per_m = 0.1};
   thiol->ink = {.name = scene::to_name("a thiol on gold"),
@@ -240,7 +240,7 @@ scene::SharedModel mica_alone() {
   scene::SharedModel model;
   model.node_count = 1;
   model.nodes[0].name = scene::to_name("sample");
-  model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // +z is up
+  model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // frame with +z up
   model.material_count = 1;
   scene::SharedContact& mica = model.materials[0];
   mica.name = scene::to_name("mica");

@@ -19,7 +19,7 @@ scene::SharedModel mica_alone();
 struct WorkFigure {
   std::string name;
   core::Percentiles us;
-  double p50_bar_us = 0;  // 0: none
+  double p50_bar_us = 0;  // goal for the median; 0: none
   double p99_bar_us = 0;
 
   bool met() const { return (p50_bar_us == 0 || us.p50 <= p50_bar_us) && us.p99 <= p99_bar_us; }
@@ -36,8 +36,8 @@ struct MeasuredSurface {
 MeasuredSurface largest_measured_surface();
 
 // Ticks a servo loop with the simulated hand at full speed, in simulated time, through repeated cycles with the force
-// on, and times every tick. Measures each law in turn, the paper's also over a plane and over the measured surface, and
-// a map of modulus and adhesion, and a lever that taps; then the work of a tick in which the tip scratches a soft
+// on, and times every tick. Measures each law in turn, the paper's also over a plane and over the measured surface,
+// a map of modulus and adhesion, and a lever in tapping mode; then the work of a tick in which the tip scratches a soft
 // sample, or writes with ink.
 core::Result<std::vector<WorkFigure>> measure_servo_work(std::size_t ticks, const MeasuredSurface& measured);
 

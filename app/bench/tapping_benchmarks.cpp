@@ -41,11 +41,11 @@ struct TappingBenchOptions {
   bool json = false;
 };
 
-// A measured time beside another one, or beside a time.
+// A measured time compared with another one, or with a limit.
 struct TappingFigure {
   std::string name;
   double seconds = 0;
-  std::string against;  // empty: the limit is a time
+  std::string against;  // name of the other time; empty: the limit is a time
   double against_s = 1.0;
   double limit = 0;
 
@@ -87,7 +87,7 @@ double time_of(const std::function<void()>& work) {
   return clock_s(CLOCK_THREAD_CPUTIME_ID) - before_s;
 }
 
-// Both in turn, so that a machine that slows down slows both.
+// Medians of both, measured in turn, so that a machine that slows down slows both.
 std::pair<double, double> medians(int rounds, const std::function<double()>& one,
                                   const std::function<double()>& other) {
   std::vector<double> ones, others;
@@ -98,7 +98,7 @@ std::pair<double, double> medians(int rounds, const std::function<double()>& one
   return {core::percentiles(std::move(ones)).p50, core::percentiles(std::move(others)).p50};
 }
 
-// p99 of a tick over cycles of the hand from above both states to 12 nm.
+// 99th percentile of a tick over cycles of the hand from above both states to 12 nm.
 template <class Model>
 double tick_p99_s(Model& model) {
   constexpr int kTicks = 20'000;
@@ -122,7 +122,7 @@ std::vector<TappingFigure> tick_figures(const Tapped& tapped, int rounds) {
           {"p99 of an envelope's tick", tick_s, "p99 of a tick without mass", static_s, 10.0}};
 }
 
-// 400 heights, down and up.
+// Time of a curve with 400 heights, down and up.
 TappingFigure curve_figure(const Tapped& tapped, int rounds) {
   const physics::TapPath path{{22_nm, 2.05_nm, 0.1_nm}, {}};
   const auto timed = [&](physics::TapMethod method) {
@@ -147,7 +147,7 @@ RungeKuttaTip runge_kutta(Length z, const physics::TapState& from) {
           .v = amplitude * std::sin(phase)};
 }
 
-// At equal error in A, in the attractive and in the repulsive state.
+// Time of a step, at equal error in A, in the attractive and in the repulsive state.
 TappingFigure step_figure(const Tapped& tapped, int rounds) {
   constexpr int kReference = 6400, kSettle = 1600, kTimed = 400;
   constexpr std::array kSteps{100, 140, 200, 280, 400, 560, 800, 1130, 1600, 2260, 3200};

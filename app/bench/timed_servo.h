@@ -23,17 +23,17 @@ class TimedServo {
   static constexpr std::int64_t kPeriodNs = 1'000'000;
   static constexpr glm::dvec3 kLiftedM{0.03, 0.060, 0.03};  // place of the hand after turn_on()
 
-  // Chooses the first material of a valid model, on a scale.
+  // Selects the first material of a valid model at a scale.
   static core::Result<std::unique_ptr<TimedServo>> create(const scene::SharedModel& model,
                                                           const scene::Topography& topography = {},
                                                           scene::ScaleMode mode = scene::ScaleMode::Fit);
   ~TimedServo();
 
-  // The simulated person lifts the hand and presses Turn-On; 3000 ticks for that and for the ramp of the force. False:
+  // Makes the simulated person lift the hand and press Turn-On; takes 3000 ticks, with the ramp of the force. False:
   // the force was not enabled.
   bool turn_on();
 
-  // The hand goes to a place, in metres, device frame, +y up.
+  // Sends the hand to a place, in metres, device frame, +y up.
   void aim(const glm::dvec3& target_m, double seconds);
   bool arrived() { return state().acknowledged.hand_script == script_.revision; }
 

@@ -45,7 +45,7 @@ void ClusterControl::take(const ViewInput& /*input*/, const ViewFrame& /*frame*/
   parts_.turn.leaving = parts_.turn.leaving || parts_.turn.failure;
 }
 
-// Sends this frame's inputs and replaces the moment by what was sent, so that this machine also lacks what did not fit.
+// Sends this frame's inputs, and replaces the moment by the sent one, so that this machine omits the same parts.
 void ClusterControl::add_to_moment(exhibit::Moment& now, ViewFrame& frame) {
   message_ = {};
   exhibit::set_moment(now, parts_.servo.link().tip(), frame.caption, parts_.turn.blank || parts_.turn.dark, message_);

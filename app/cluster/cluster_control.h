@@ -30,7 +30,7 @@ class ClusterControl final : public ViewControl {
   ViewParts& parts_;
   ClusterMaster& master_;
   cluster::FrameMessage message_{};  // inputs of the current frame
-  exhibit::ParticlesNow particles_;  // as all machines show them
+  exhibit::ParticlesNow particles_;  // particles as all machines show them
 };
 
 }  // namespace afm::app

@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::int64_t kHistoryPauseNs = 500'000'000;  // shortest time between two histories sent to nodes
 constexpr int kBeatMs = 2;                             // time between two heartbeats while the barrier waits
-constexpr std::size_t kMostRowsOfFrame = 128;          // rows of marks: 53 kB
+constexpr std::size_t kMostRowsOfFrame = 128;          // number of rows of marks in a frame: 53 kB
 
 std::vector<std::string> names_of(const std::vector<scene::WallNode>& nodes) {
   std::vector<std::string> names;
@@ -125,7 +125,7 @@ void ClusterMaster::follow_particles(const exhibit::ParticlesNow& now, std::size
   follow_marks(now);
 }
 
-// Marks that do not fit into a frame follow in the next ones.
+// Sends changed marks; those that do not fit into a frame follow in the next ones.
 void ClusterMaster::follow_marks(const exhibit::ParticlesNow& now) {
   if (!scene::leaves_marks(*now.set)) return;
   tiles_.resize(scene::kMarkTiles);

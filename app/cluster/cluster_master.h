@@ -33,7 +33,7 @@ class ParameterEdits;
 
 // The live window as the master of a wall of several machines: sends the inputs of each frame, waits until every
 // connected node has drawn it, and lets all show it. Main thread only. Waits for the network no longer than the
-// barrier's patience, and keeps calling the heartbeat meanwhile.
+// barrier's patience, and calls the heartbeat meanwhile.
 class ClusterMaster {
  public:
   // All must outlive it. `contact_m`: the contact point, in the room.
@@ -50,7 +50,7 @@ class ClusterMaster {
   void follow_scan(const exhibit::LiveScan* scan, std::size_t material, std::uint64_t begun);
 
   // Sends the poses that have changed, the push, a score and a picture that have changed, and rows of marks that have
-  // changed, as many as fit. Call before the frame that shows them is sent; `count` particles.
+  // changed, as many as fit. Call before the frame that shows them is sent; `count`: number of particles.
   void follow_particles(const exhibit::ParticlesNow& now, std::size_t count);
 
   // The same particles with the marks that have been sent; valid until the next follow_particles().
@@ -60,20 +60,20 @@ class ClusterMaster {
   void send(cluster::FrameMessage& frame, ParameterEdits& edits, const exhibit::CycleHistory& cycles,
             const exhibit::FrictionHistory& friction);
 
-  // Reports that the frame was built as it was sent; `digest` is of its contents.
+  // Reports that the frame was built as sent; `digest` is the digest of its contents.
   void built(std::uint64_t digest);
 
   // Waits until all connected nodes have drawn the frame, then lets them show it.
   void barrier(const std::function<void()>& while_waiting);
 
-  // The reason to end, if another master that started earlier drives the wall. Logs one that started later. Once a
+  // Reason to end, if another master that started earlier drives the wall. Logs one that started later. Call once a
   // frame.
   std::optional<core::Error> rival();
 
   // True if a screen of a node shows the sample.
   bool nodes_show_sample() const;
 
-  // Newest time at which a node that shows the sample had drawn it for people who see it; `now_ns` while such a node is
+  // Newest time at which a node that shows the sample had drawn it for visible windows; `now_ns` while such a node is
   // awaited.
   std::int64_t seen_ns(std::int64_t now_ns) const;
 
@@ -93,7 +93,7 @@ class ClusterMaster {
     bool shows_sample = false;
     bool heard = false;
     std::uint32_t stops = 0;
-    std::int64_t seen_ns = 0;  // arrival of the newest answer from where people see the picture
+    std::int64_t seen_ns = 0;  // arrival of the newest answer from a node whose picture is visible
   };
   void follow(const cluster::ReadyMessage& ready, std::int64_t came_ns);
 
@@ -103,23 +103,23 @@ class ClusterMaster {
   std::vector<std::optional<cluster::EditRecord>> edits_;  // newest recorded edit of each material
   std::vector<cluster::ScanRecord> scan_;                  // newest recorded state of the scan
   std::uint64_t scan_begun_ = 0;
-  std::vector<scene::ParticlePage> pages_;  // as recorded
-  std::vector<std::uint8_t> known_;         // the same: servo::Known of each pose
+  std::vector<scene::ParticlePage> pages_;  // pages as recorded
+  std::vector<std::uint8_t> known_;         // servo::Known of each pose, as recorded
   scene::TipPush push_;
   scene::TaskScore score_;
   scene::PlannedPush plan_;
   cluster::PictureRecord picture_;
-  std::vector<scene::MarkTile> tiles_;  // as recorded; empty: the tip leaves no marks
+  std::vector<scene::MarkTile> tiles_;  // tiles as recorded; empty: no marks
   std::uint64_t marks_ = 0;             // number of recorded rows
-  std::uint64_t marks_heard_ = 0;       // ParticlesNow::marks of the newest frame
-  bool more_marks_ = false;             // true: rows of it are still to be sent
+  std::uint64_t marks_heard_ = 0;       // value of ParticlesNow::marks in the newest frame
+  bool more_marks_ = false;             // true: more rows of these marks to send
   std::uint64_t number_ = 0;
   std::uint64_t waited_frames_ = 0;
   std::int64_t longest_wait_ns_ = 0;
   std::int64_t history_sent_ns_ = 0;
   bool history_wanted_ = false;
   bool rival_logged_ = false;
-  std::vector<Told> told_;  // one a node
+  std::vector<Told> told_;  // one entry per node
   bool stop_pressed_ = false;
 };
 

@@ -20,9 +20,9 @@ namespace afm::app {
 
 namespace {
 
-constexpr int kListenMs = 1500;  // wait for another master; longer than DDS needs to discover one
+constexpr int kListenMs = 1500;  // wait for another master, longer than DDS needs to discover one
 
-// Contains the texts of the files, so that the other machines need no files.
+// Description of the wall. It contains the texts of the files, so that the other machines need no files.
 core::Result<exhibit::WallModel> wall_model(const exhibit::ExhibitFiles& files, const WallChoice& choice,
                                             const std::string& program, const exhibit::Stage& stage) {
   exhibit::WallModel model;

@@ -32,7 +32,7 @@ struct WindowOptions;
 
 struct ClusterOptions {
   bool wanted = false;
-  std::string interface_address;  // empty: the interface that leads to the first node
+  std::string interface_address;  // interface address; empty: the one that leads to the first node
   std::uint32_t domain = cluster::ClusterNetwork::kUsualDomain;
 };
 
@@ -46,10 +46,10 @@ void add_domain_option(OptionList& command, std::uint32_t& domain);
 core::Result<cluster::ClusterNetwork> master_network(const ClusterOptions& options, const scene::Wall& wall);
 
 // WrongUsage if the wall has outputs on other machines, which one window would not show. `remedy`: the option that
-// shows them all, "--cluster, or "; empty if there is none.
+// shows them all, such as "--cluster, or "; empty if there is none.
 core::Result<void> check_one_machine(const scene::Wall& wall, const WindowOptions& window, std::string_view remedy);
 
-// Parts of the wall's description that are in no file.
+// Parts of the wall's description that no file contains.
 struct WallChoice {
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   exhibit::PictureOptions picture;

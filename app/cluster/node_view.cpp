@@ -106,7 +106,7 @@ bool NodeView::take(const Prepare& prepare) {
       forget();
     } else if (model->bytes != refused_) {
       if (prepare(*model)) return true;
-      refused_ = model->bytes;  // one line for each, however often it comes
+      refused_ = model->bytes;  // one log line for each description, however often it arrives
     }
   }
   take_records();
@@ -170,7 +170,7 @@ void NodeView::follow_scan(const cluster::ShownMoment& shown) {
   if (scan_->progress().truth != truth) scan_->show_truth(truth);
 }
 
-// Returns false while records from before this frame are missing.
+// Applies the records that precede a frame. Returns false while some are missing.
 bool NodeView::catch_up(std::uint64_t journal) {
   const std::int64_t until_ns = clock_.now_ns() + kCatchUpNs;
   for (;;) {
@@ -250,7 +250,7 @@ void NodeView::show(const cluster::FrameMessage& message, bool master_gone,
   shown_ns_ = clock_.now_ns();
 }
 
-// Waits no longer than until the master must have given up or continued.
+// Waits for the signal to show, but not longer than until the master must have given up or continued.
 void NodeView::wait_for_swap(const cluster::FrameMessage& message) {
   const std::int64_t until_ns = clock_.now_ns() + kSwapNs;
   for (;;) {

@@ -41,12 +41,12 @@ class NodeView {
     std::vector<std::byte> model;
   };
 
-  // All must outlive it; `key_list` is the one of the master's window.
+  // All must outlive it; `key_list` is the function that the master's window uses.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
   ~NodeView();
 
-  // Prepares another wall; false: it cannot be shown, and this one continues.
+  // Prepares another wall; false if it cannot be shown, so that this one continues.
   using Prepare = std::function<bool(const cluster::NodeLink::Document& other)>;
 
   // Runs until the window is closed or a signal arrives; returns true if another wall is prepared instead.

@@ -34,7 +34,7 @@ core::Result<void> become_benchmarks(const std::string& program, std::vector<std
                   core::system_error(errno)));
 }
 
-// A command whose measurements are those of the benchmark program, with its flag.
+// Adds a command whose measurements are those of the benchmark program, with its flag.
 void add_micro_benchmarks(OptionList& bench, const CommandContext& context, const std::string& name,
                           const std::string& help, const std::string& flag) {
   OptionList command = bench.add_command(name, help);

@@ -31,7 +31,7 @@ namespace {
 
 using core::wrong_usage;
 
-constexpr std::array kOwnFormats{"csv", "json", "svg"};  // the others are those of curve files
+constexpr std::array kOwnFormats{"csv", "json", "svg"};  // formats of this command; the others are those of curve files
 
 std::vector<std::string> file_format_words() {
   std::vector<std::string> words;
@@ -53,7 +53,7 @@ std::optional<curves::WritableFormat> file_format_of(std::string_view word) {
   return std::nullopt;
 }
 
-// Refuses a name of an image, and to replace a curve by what is none.
+// Refuses the name of an image, and the replacement of a curve by something else.
 core::Result<void> check_out(const std::string& out, std::string_view format) {
   if (curves::image_format(out)) {
     return wrong_usage(fmt::format(
@@ -188,7 +188,7 @@ curves::ContactOptions with_swept_values(curves::ContactOptions contact, const s
   return contact;
 }
 
-// The same for the free amplitude of a lever that taps.
+// Same for the free amplitude in tapping mode.
 CurveOptions with_swept_amplitude(CurveOptions options) {
   for (const std::string& sweep : options.sweeps) {
     if (options.tapping.numbers.free_amplitude.empty()) {

@@ -16,7 +16,7 @@ struct CurveOptions {
   curves::ContactOptions contact;
   curves::PathOptions path;
   curves::TappingChoice tapping;
-  std::vector<std::string> sweeps;  // "key=from:to:count"
+  std::vector<std::string> sweeps;  // text such as "key=from:to:count"
   bool json = false;
   // csv, json, svg or a word of curves::writable_formats(); empty: by the file extension of `out`, else csv
   std::string format;

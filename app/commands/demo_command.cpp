@@ -42,7 +42,7 @@ namespace afm::app {
 
 namespace {
 
-// Fig. 5 is larger than the live wall's picture.
+// Width of Fig. 5, larger than the live wall's picture.
 constexpr std::uint32_t kFigureEyeWidth = 1440;
 constexpr double kCommonPushM = 0.012;  // clear of the end of the workspace
 constexpr QuantityRange<physics::Velocity> kHandSpeeds{physics::Velocity(0.005), physics::Velocity(0.200)};
@@ -50,13 +50,13 @@ constexpr QuantityRange<physics::Velocity> kHandSpeeds{physics::Velocity(0.005),
 struct DemoOptions {
   std::string out;
   exhibit::ExhibitFiles files;
-  std::uint32_t eye_width = 0;  // 0: as large as fits
+  std::uint32_t eye_width = 0;  // width of an eye image; 0: as large as fits
   std::string gpu;
   input::HandPath hand;
   std::optional<double> frame_budget_ms;
   servo::ServoChoice servo;
   DemoSamples samples;
-  bool sound = false;  // writes a sound file for each session
+  bool sound = false;  // true: writes a sound file for each session
   SoundOptions sound_options;
 };
 

@@ -37,10 +37,10 @@ struct Row {
   std::string detail;  // description, or the reason why it is unusable
 };
 
-// Long enough for a tracker, which sends at least 60 frames a second.
+// Time for listening to a tracker, which sends at least 60 frames a second.
 constexpr std::int64_t kListenNs = 300'000'000;
 
-// Names of the wands that need no wand file, each once.
+// Names of the wands that need no wand file, without repetitions.
 std::string known_wands(const std::vector<input::HidMapping>& mappings) {
   std::vector<std::string_view> names;
   const auto add = [&](std::string_view name) {

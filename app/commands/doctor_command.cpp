@@ -30,7 +30,7 @@ constexpr double kDefaultSeconds = 2.0;
 constexpr double kShortest = 0.1;
 constexpr double kLongest = 600.0;
 
-// Requirements on the servo of a lab machine, over a minute.
+// Requirements on the servo of a lab machine, over one minute.
 constexpr double kLabSeconds = 60.0;
 constexpr double kLabLateness_us = 200.0;  // limit for 99.9 % of the ticks
 

@@ -35,12 +35,12 @@ struct GenerateOptions {
 };
 
 struct NamedBytes {
-  std::string ending;  // after the name of the file
+  std::string ending;  // text after the name of the file
   std::string bytes;
 };
 
-// FILE and what belongs to it, all or none. Opened before the work, so that a folder that cannot be written ends it at
-// once.
+// FILE and the files that belong to it, all or none. Opened before the work, so that a folder that is not writable ends
+// it at once.
 class Together {
  public:
   static core::Result<Together> open(const std::string& file) {
@@ -108,7 +108,7 @@ void add_out(OptionList& command, std::string& out, const std::string& files) {
       .type_name("FILE");
 }
 
-// The laws that a curve can be made with: all but `auto`, which chooses one for a measured curve.
+// Laws with which a curve can be made: all but `auto`, which chooses one for a measured curve.
 const std::vector<fits::ShapeRow>& laws_of_curves() {
   static const std::vector<fits::ShapeRow> laws = [] {
     std::vector<fits::ShapeRow> named(fits::kShapes.begin(), fits::kShapes.end());

@@ -120,7 +120,7 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   return {};
 }
 
-// Removes a folder that a participant who declined has left without files.
+// Removes the empty folder of a participant who has declined.
 void remove_empty(const std::string& folder) {
   std::error_code not_empty;
   std::filesystem::remove(folder, not_empty);

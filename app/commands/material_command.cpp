@@ -141,7 +141,7 @@ core::Result<std::string> material_map(const curves::ContactSetup& setup) {
 
 struct MaterialOptions {
   curves::ContactOptions contact;
-  std::string map;  // an SVG file, or empty
+  std::string map;  // SVG file, or empty
 };
 
 core::Result<void> print_material(const MaterialOptions& options) {

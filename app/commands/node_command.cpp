@@ -75,7 +75,7 @@ core::Result<cluster::ClusterNetwork> node_network(const NodeOptions& options) {
     if (!address) return tl::unexpected(address.error());
     network.peers.push_back(std::move(*address));
   } else if (!found->multicast) {
-    network.peers.push_back(found->address);  // the loopback interface: all nodes on one machine
+    network.peers.push_back(found->address);  // loopback interface: all nodes on one machine
   }
   return network;
 }
@@ -107,7 +107,7 @@ core::Error refuse(cluster::NodeLink& link, const cluster::ClusterHeader& header
 
 struct NodeStage {
   cluster::NodeLink::Document document;
-  std::uint32_t node = 0;  // its index in the wall
+  std::uint32_t node = 0;  // index of the node in the wall
   exhibit::WallModel model;
   exhibit::Stage stage;
   std::vector<curves::SampleModel> materials;

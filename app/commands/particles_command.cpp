@@ -49,7 +49,7 @@ using physics::Sideways;
 
 constexpr Frequency kSlowestTicks{10.0}, kFastestTicks{1e5};
 constexpr double kMostTicks = 2e7;   // some minutes
-constexpr double kRounding = 1e-12;  // share of the energy given that the certificate may lack
+constexpr double kRounding = 1e-12;  // fraction of the given energy that the certificate may lack
 
 struct ParticlesOptions {
   std::string file;
@@ -158,7 +158,7 @@ std::string particles_json(const scene::ParticleSet& set, const ParticlesOptions
 
 const char* plural(std::size_t count) { return count == 1 ? "" : "s"; }
 
-// Energy, adhesion and what went wrong, over all moves.
+// Text with energy, adhesion and faults, over all moves.
 std::string energy_text(const scene::ScriptedPush& played) {
   const PushTick& last = played.ends.back().tick;
   // below what rounding leaves of sums, nothing is stored

@@ -48,10 +48,10 @@ namespace {
 
 struct RenderOptions {
   std::string session;
-  std::optional<double> journey_orders;  // drawn instead of a session
+  std::optional<double> journey_orders;  // orders of the journey, drawn instead of a session
   std::string material = "mica";         // material of the journey
   bool analogy = false;
-  exhibit::ModelChoice model;  // drawn instead of session or journey
+  exhibit::ModelChoice model;  // model drawn instead of a session or the journey
   bool describe = false;
   bool json = false;
   std::string out;
@@ -101,7 +101,7 @@ core::Result<void> run_journey(const RenderOptions& options) {
   exhibit::Moment moment;
   moment.wall = {
       .material = 0, .centerpiece = exhibit::Centerpiece::Journey, .journey_orders = *options.journey_orders};
-  moment.realtime = true;  // nothing moves
+  moment.realtime = true;  // real time, since nothing moves
   return draw(*stage, {*model}, moment, options.picture, options.out);
 }
 
@@ -154,7 +154,7 @@ void look_as(const servo::WallFrame& frame, scene::Wall& wall, exhibit::PictureO
   }
 }
 
-// Shows a map in the panels as it was in the frame; returns what was seen of the curves of one that was felt whole.
+// Shows a map in the panels as in the frame; returns the visible part of the curves of a whole felt map.
 MapView show_map(const servo::WallFrame& frame, const std::vector<curves::SampleModel>& models,
                  std::optional<std::size_t> material, ViewPanels& panels, scene::TipState& tip) {
   if (!frame.map || !material || !models[*material].pixel) return {};
@@ -248,7 +248,7 @@ core::Result<void> draw_replayed(const exhibit::Stage& stage, const std::vector<
       stage.phrases().word(stage.materials.materials[material].title), fmt::format("{:.2f} s", options.at_s));
   if (options.analogy) moment.wall.centerpiece = exhibit::Centerpiece::Analogy;
   return draw(stage, models, moment, options.picture, options.out, [&](render::FrameState& frame) {
-    if (session.curve || session.law_map) return;  // the recorded law is no forecast
+    if (session.curve || session.law_map) return;  // no forecast, since the law was recorded
     exhibit::add_forecast(curves::LiveParameters(models[material]), stage.phrases(), frame.panels.force.content);
   });
 }

@@ -32,13 +32,13 @@ struct ReplayOptions {
   std::string session;
   servo::ReplayRange range;
   bool json = false;
-  std::string sound;  // file; empty: none is written
+  std::string sound;  // sound file; empty: none
   SoundOptions sound_options;
 };
 
 bool is_of_map(const servo::RecordedSession& session) { return session.curve && session.curve->column >= 0; }
 
-// Null if the material is not of a force map.
+// Pixel of the session; null if the material is not from a force map.
 nlohmann::json pixel_of(const servo::RecordedSession& session) {
   if (!is_of_map(session)) return nullptr;
   return {session.curve->column, session.curve->row};
@@ -56,11 +56,11 @@ double seconds(const servo::RecordedSession& session) {
   return session.seconds_since_start(session.samples.back().time_ns);
 }
 
-// Score of a session whose particles have a pattern, which is that of the built-in set with these particles.
+// Score of a session whose particles have a pattern: the pattern of the built-in set with these particles.
 struct SessionTask {
-  std::string set;  // its title
+  std::string set;  // title of the set
   scene::TaskScore score;
-  bool from_the_start = true;  // no particle had been moved before the session
+  bool from_the_start = true;  // true: no particle moved before the session
 };
 
 std::string json(const servo::RecordedSession& session, const servo::Replay& replayed, const servo::ReplayRange& range,

@@ -123,7 +123,7 @@ bool is_amplitude(const std::string& text) {
   return std::holds_alternative<double>(share) || physics::parse_quantity(text, physics::kLengthUnits).value;
 }
 
-// A force in contact mode, a share of the free amplitude or an amplitude in tapping mode.
+// Adds --setpoint: a force in contact mode; a share of the free amplitude, or an amplitude, in tapping mode.
 void add_setpoint_option(OptionList& command, ScanOptions& options, const physics::ScanField& field) {
   const QuantityDomain domain{field.units->sort, field.units->units,
                               QuantityRange<double>{field.smallest, field.largest}};

@@ -47,7 +47,7 @@ struct ServeOptions {
   DisplayOptions display;
 };
 
-// The instrument with its doors, which listen from open() on.
+// The instrument with its interfaces, which listen after open().
 class Served {
  public:
   static core::Result<std::unique_ptr<Served>> create(const ServeOptions& options, const std::string& assets_dir) {
@@ -91,7 +91,7 @@ class Served {
   std::vector<instrument::OpenDoor> doors_;
 };
 
-// A wall with the samples that have been under the tip, and its windows.
+// A wall with the samples that have been under the tip so far, and its windows.
 struct ShownWall {
   exhibit::Stage stage;
   std::vector<curves::SampleModel> materials;
@@ -113,8 +113,8 @@ core::Result<std::unique_ptr<ShownWall>> open_wall(const ServeOptions& options, 
   return wall;
 }
 
-// Shows the instrument until the window is closed or `over`; with another material it opens again. Failures end the
-// view alone.
+// Shows the instrument until the window is closed or `over`; reopens for another material. Failures only end the
+// view.
 void show(ServeOptions options, std::unique_ptr<ShownWall> wall, instrument::Showcase& showcase,
           const core::Clock& clock, const std::function<bool()>& over) {
   while (wall) {

@@ -18,7 +18,7 @@ namespace afm::app {
 
 namespace {
 
-// The curve of a session without its map, as a sample.
+// Curve of a session without its map, as a sample.
 scene::MaterialEntry entry_of_curve(const servo::RecordedSession& session) {
   scene::MaterialEntry entry;
   entry.name = session.material;
@@ -55,7 +55,7 @@ core::Result<exhibit::ExhibitFiles> files_for(const servo::RecordedSession& sess
   return files;
 }
 
-// The session's own sample, felt as recorded.
+// The session's own sample with the recorded parameters.
 core::Result<curves::SampleModel> felt_model(const servo::RecordedSession& session, const scene::MaterialEntry& entry,
                                              const exhibit::Stage& stage) {
   if (stage.pixel && stage.pixel->felt_map) {

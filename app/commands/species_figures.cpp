@@ -31,7 +31,7 @@ using physics::Stiffness;
 
 constexpr Length kAtomicDistance{0.3e-9};  // z0 of Tabor's parameter
 constexpr physics::Temperature kRoomTemperature{298.15};
-constexpr double kPoorAim = 0.05;  // offset over the distance of the axes
+constexpr double kPoorAim = 0.05;  // offset of a poor aim, relative to the distance of the axes
 
 // Figures of a species that a user needs before a push.
 struct SpeciesFigures {
@@ -118,7 +118,7 @@ nlohmann::json rod_figures_json(const scene::ParticleSet& set, const ParticleSpe
 
 // Figures of flat islands that a user needs before a push.
 struct IslandFigures {
-  Force pushed, turned;  // at rest: through the middle, and beside it by a tip that only just sticks
+  Force pushed, turned;  // forces at rest: through the middle, and beside it for a tip that only just sticks
   Length rho, aim, lost;
   double sticks_rad = 0.0;
   Force most_push;

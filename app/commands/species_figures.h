@@ -18,7 +18,7 @@ namespace afm::app {
 std::string species_figures_text(const scene::ParticleSet& set, std::size_t species);
 nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t species);
 
-// Measured, computed and stale parts of the picture after the moves, and what each second look found; empty or null
+// Measured, computed and stale parts of the picture after the moves, and the result of each second look; empty or null
 // without a picture.
 std::string picture_text(const scene::PushScript& script, const scene::ScriptedPush& played);
 nlohmann::json picture_json(const scene::PushScript& script, const scene::ScriptedPush& played);

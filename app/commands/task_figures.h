@@ -7,7 +7,7 @@
 
 namespace afm::app {
 
-// The score of a task, with the unit in each key; null before the task has begun.
+// Score of a task, with the unit in each key; null before the task has begun.
 nlohmann::json task_json(const scene::TaskScore& score);
 
 }  // namespace afm::app

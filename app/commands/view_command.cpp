@@ -50,7 +50,7 @@ namespace afm::app {
 namespace {
 
 constexpr std::uint32_t kSmallestWindow = 64, kLargestWindow = 16384;
-constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // per second; below 4 the servo trips
+constexpr double kSlowestFrames = 10.0, kFastestFrames = 1000.0;  // frames per second; below 4 the servo trips
 
 constexpr QuantityRange kForceLimits{physics::Force(haptics::kLeastForceLimitN), physics::Force(2.0)};
 
@@ -204,7 +204,7 @@ void add_exhibition_options(OptionList& command, ViewOptions& options) {
   add_tapped_view_options(command, options.tapping);
 }
 
-// The wall's other machines; null if this machine shows the wall by itself.
+// Connection to the wall's other machines; null if this machine shows the wall by itself.
 core::Result<std::unique_ptr<ClusterMaster>> other_machines(const ViewOptions& options, const std::string& program,
                                                             exhibit::Stage& stage, const core::Clock& clock) {
   if (options.cluster.wanted) {
@@ -231,8 +231,8 @@ servo::ServoChoice servo_of(const ViewOptions& options) {
   return servo;
 }
 
-// A person who asks for particles or a force map wants to feel them: their sample is under the tip from the start,
-// particles on their scale.
+// Sets the initial sample and scale: a person who asks for particles or a force map wants to feel them, particles on
+// their scale.
 void set_start(const ViewOptions& options, const exhibit::Stage& stage, ViewSettings& settings) {
   const bool particles = stage.particles != nullptr;
   settings.equal_force_n = options.files.equal_force_n;

@@ -34,15 +34,15 @@ struct ViewOptions {
   exhibit::ExhibitFiles files;
   scene::LevelChoice level;
   DisplayOptions display;
-  ViewSettings settings;                  // without the scale
-  std::optional<scene::ScaleMode> scale;  // empty: particles where there are any, otherwise fit
+  ViewSettings settings;                  // settings without the scale
+  std::optional<scene::ScaleMode> scale;  // scale of the hand; empty: particles if there are any, otherwise fit
   physics::FrictionLaw friction = physics::FrictionLaw::None;
   curves::TappedHand tapping;
-  double frame_rate = 0;  // 0: the display's
+  double frame_rate = 0;  // frames per second; 0: the display's rate
   bool speech = false;
   bool headset = false;
-  bool kiosk = false;  // an unattended window that reopens after a failure or a hang
-  int kept = -1;       // descriptor at which the window of a kiosk beats; -1: none
+  bool kiosk = false;  // true: an unattended window that reopens after a failure or a hang
+  int kept = -1;       // descriptor for the heartbeat of a kiosk's window; -1: none
   servo::ServoChoice servo{.haptic_device = "mouse", .settings = {.linger_s = 10.0}};
   std::int64_t spin_us = 0;
   WandOptions wand;

@@ -11,13 +11,13 @@ struct Stage;
 
 namespace afm::app {
 
-// Checks the options of the force map, and gives `files` those that it shares with tapping: with a force map,
-// --spring-constant is that of the lever that recorded it. A map vibrates only on a device whose profile allows it; of
-// the device of auto the servo decides.
+// Checks the options of the force map, and stores in `files` those that it shares with tapping: with a force map,
+// --spring-constant describes the lever that recorded it. A map vibrates only on a device whose profile allows it; for
+// the device "auto" the servo decides.
 core::Result<void> take_map_options(const ViewOptions& options, curves::TappedHand& tapping,
                                     exhibit::ExhibitFiles& files);
 
-// Names the file of the map, if sessions of it are recorded.
+// Stores the file of the map in the settings, if sessions are recorded.
 core::Result<void> keep_map(const exhibit::Stage& stage, const exhibit::ExhibitFiles& files, ViewSettings& settings);
 
 }  // namespace afm::app

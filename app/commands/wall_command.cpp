@@ -37,13 +37,13 @@ namespace {
 
 struct WallOptions {
   std::string file;
-  std::optional<scene::HeadPose> head;  // replaces the viewer's sweet spot
+  std::optional<scene::HeadPose> head;  // pose that replaces the viewer's sweet spot
   bool json = false;
   bool test_pattern = false;
   bool start = false;
   std::string out;
   exhibit::PictureOptions picture;
-  exhibit::ExhibitFiles files;  // only its language is used
+  exhibit::ExhibitFiles files;  // used only for their language
 };
 
 core::Result<scene::HeadPose> parse_head(std::string_view text) {
@@ -199,7 +199,7 @@ void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
               kPanels[static_cast<std::size_t>(shape.arrangement)]);
   // A line of the smallest text is 30 mm high on the paper's wall; a capital of Inter has 0.60 of its line.
   constexpr double kSmallestCapitalM = 0.018;
-  constexpr double kReadableArcMinutes = 6.0;  // capital height; a sharp eye needs 5
+  constexpr double kReadableArcMinutes = 6.0;  // capital height in arc minutes; a sharp eye needs 5
   constexpr double kArcMinutesPerRad = 3437.75;
   const double distance_m = glm::distance(head.position_m, stage.main.center());
   const double capital = kSmallestCapitalM * shape.unit_m / distance_m * kArcMinutesPerRad;

@@ -115,7 +115,7 @@ render::Image journey_strip(const exhibit::FrameBuilder& frames, render::Rendere
   for (double orders = 0.0; orders <= exhibit::kJourneyOrders; orders += 1.0) {
     exhibit::Moment moment;
     moment.wall = {.material = 0, .centerpiece = exhibit::Centerpiece::Journey, .journey_orders = orders};
-    moment.realtime = true;  // nothing moves
+    moment.realtime = true;  // real time, since nothing moves
     renderer.render(frames.build(moment));
     stills.push_back(renderer.read_eye(scene::Eye::Left));
   }

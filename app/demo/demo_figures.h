@@ -24,7 +24,7 @@ struct RecordedSession;
 namespace afm::app {
 
 struct Figure {
-  std::string file;     // "fig5a.png"
+  std::string file;     // name such as "fig5a.png"
   std::string caption;  // description below the picture
   exhibit::Moment moment;
 };

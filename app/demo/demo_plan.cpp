@@ -18,7 +18,7 @@ namespace afm::app {
 namespace {
 
 constexpr std::uint64_t kMostVariations = 9;
-constexpr double kLeastMeeting = 0.05;  // share of the free amplitude below which a swing keeps its state
+constexpr double kLeastMeeting = 0.05;  // fraction of the free amplitude below which a swing keeps its state
 
 bool taps(const DemoSamples& samples) { return samples.tapping.choice.mode == "tapping"; }
 
@@ -36,7 +36,7 @@ core::Result<curves::ContactSetup> setup_of(scene::MaterialEntry entry, const De
   return curves::ContactSetup{std::move(entry), {}, samples.model, samples.friction};
 }
 
-// A hand waits for the repulsive state before it turns back.
+// Checks that the lever reaches the repulsive state, for which a hand waits before it turns back.
 core::Result<void> check_state(const curves::SampleModel& material) {
   const physics::CycleFigures& figures = material.figures();
   const double a0_m = material.parameters.free_amplitude_m;

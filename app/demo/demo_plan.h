@@ -20,14 +20,14 @@ namespace afm::app {
 
 struct DemoPlan;
 
-// Samples of the demonstration as a user wants to have them felt.
+// Samples of the demonstration, as chosen by a user.
 struct DemoSamples {
-  curves::ModelName model{.text = "paper"};  // without tapping
+  curves::ModelName model{.text = "paper"};  // force law, without tapping
   std::optional<scene::ScaleMode> scale;
   physics::FrictionLaw friction = physics::FrictionLaw::None;
-  std::string probe;              // probe in place of the materials' lever and tip; empty: none
+  std::string probe;              // probe that replaces the materials' lever and tip; empty: none
   std::string measured;           // additional curve file to feel; empty: none
-  std::vector<std::string> vary;  // "spring-constant=0.1N/m:0.4N/m:3"
+  std::vector<std::string> vary;  // texts such as "spring-constant=0.1N/m:0.4N/m:3"
   curves::TappedHand tapping;
 };
 
@@ -36,8 +36,8 @@ struct DemoSamples {
 core::Result<std::optional<curves::MeasuredMaterial>> load_measured(const DemoSamples& samples,
                                                                     const std::string& assets_dir);
 
-// Every sample of the stage as it will be felt, and its variations. WrongUsage, naming the option, for one that cannot
-// be; also for a lever whose swing no hand can bring into the repulsive state.
+// Samples of the stage as they will be felt, and their variations. WrongUsage, naming the option, if one is impossible,
+// or if no hand can bring the lever's swing into the repulsive state.
 core::Result<DemoPlan> plan_demo(const exhibit::Stage& stage, const std::optional<curves::MeasuredMaterial>& measured,
                                  const DemoSamples& samples, const std::string& assets_dir);
 

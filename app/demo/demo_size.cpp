@@ -19,7 +19,7 @@ namespace afm::app {
 namespace {
 
 constexpr int kTriedFrames = 7;
-constexpr std::uint32_t kWidthStep = 16;  // pixels
+constexpr std::uint32_t kWidthStep = 16;  // in pixels
 
 // Time of a typical frame while the tip moves, in ms. The first frame draws everything, and is not counted.
 double measure_frame_ms(render::Renderer& renderer, const exhibit::Stage& stage,

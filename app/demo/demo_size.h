@@ -23,12 +23,12 @@ namespace afm::app {
 struct DemoRenderer {
   render::Renderer renderer;
   render::RendererOptions options;
-  double frame_budget_ms = 0;  // 0: none
-  std::string size_reason;     // reason for a smaller size than the usual one; empty: it is the usual one, or fixed
+  double frame_budget_ms = 0;  // time per frame; 0: no budget
+  std::string size_reason;     // reason for a size below the usual one; empty: usual or fixed size
 };
 
 // Creates the renderer for a size that a person has fixed, or for the usual one. If there is a budget but no fixed
-// size, measures some frames with a moving tip first, and draws fewer pixels where they take too long.
+// size, measures some frames with a moving tip first, and draws fewer pixels if they take too long.
 core::Result<DemoRenderer> create_demo_renderer(render::Context& context, const exhibit::Stage& stage,
                                                 const std::vector<curves::SampleModel>& materials,
                                                 std::uint32_t fixed_eye_width, std::optional<double> frame_budget_ms,

@@ -29,7 +29,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr double kPatienceSeconds = 20.0;  // added to the duration of the step itself
+constexpr double kPatienceSeconds = 20.0;  // time added to the duration of the step itself
 constexpr int kMostServosLost = 5;
 
 }  // namespace

@@ -42,12 +42,12 @@ struct DemoPlan {
   std::vector<std::vector<curves::SampleModel>> variations;  // one list per material
   std::vector<scene::SharedMeasuredCurve> curves;            // curves of measured materials
   std::optional<physics::CurveFeatures> recorded;            // analysis of the measured material
-  double frame_budget_ms = 0;                                // 0: none
+  double frame_budget_ms = 0;                                // time per frame; 0: no budget
   scene::ScaleMode scale = scene::ScaleMode::Fit;
 };
 
 // One live run of the paper's procedure on every material: the simulated person's wand and hand, the servo, and the
-// renderer, each doing what it does for a real person. One thread.
+// renderer, each as for a real person. One thread.
 class Demonstration {
  public:
   using Progress = std::function<void(const std::string&)>;
@@ -78,14 +78,14 @@ class Demonstration {
   const exhibit::WallScene& wall_scene_;
   const exhibit::Phrases& phrases_;
   const DemoPlan& plan_;
-  std::vector<curves::SampleModel> materials_;  // as currently felt
+  std::vector<curves::SampleModel> materials_;  // materials as currently felt
   std::unique_ptr<exhibit::FrameBuilder> frames_;
   render::Renderer& renderer_;
   servo::ServoClient& servo_;
   const core::Clock& clock_;
   std::optional<DynamicResolution> budget_;
   input::HandPath path_;
-  std::function<void()> chosen_;  // called once, then empty
+  std::function<void()> chosen_;  // callback for the first selection; empty after the call
   input::SimulatedPerson person_;
   input::Selector selector_;
   std::vector<input::Target> targets_;

@@ -16,15 +16,15 @@ namespace afm::app {
 struct DisplayOptions {
   exhibit::PictureOptions picture;
   WindowOptions window;
-  std::uint32_t eye_width = 0;                  // 0: from the windows
-  std::optional<double> frame_budget_ms;        // 0: none; empty: fitting the device
-  double comfort_deg = 1;                       // largest change of the eyes' convergence from that for the wall
+  std::uint32_t eye_width = 0;                  // width of an eye image; 0: derived from the windows
+  std::optional<double> frame_budget_ms;        // time per frame; 0: none; empty: depending on the device
+  double comfort_deg = 1;                       // largest deviation of the eyes' convergence from that for the wall
   std::string saved_folder = ".";               // receives the saved pictures
   const char* keys_hint = "F1 shows the keys";  // end of the log's line on the picture
-  bool validate = false;                        // check every Vulkan call
+  bool validate = false;                        // true: validation of every Vulkan call
   render::PanelContrast contrast = render::PanelContrast::Normal;
   render::Swap swap = render::Swap::Alone;  // synchronisation with the other machines of a wall
-  std::string instructor;                   // place of the instructor's window, for open_window(); empty: there is none
+  std::string instructor;                   // place of the instructor's window, for open_window(); empty: none
 };
 
 }  // namespace afm::app

@@ -16,8 +16,8 @@ class FrameTimes {
   // Records that the window is invisible: the interval until the next frame does not count.
   void hidden();
 
-  // "picture: 214 frames, 10.8 per second; interval p50 92.3, p99 110.2, p99.9 317.7, max 317.7 ms"; empty before the
-  // second frame.
+  // Statistics such as "picture: 214 frames, 10.8 per second; interval p50 92.3, p99 110.2, p99.9 317.7, max 317.7 ms";
+  // empty before the second frame.
   std::string text() const;
 
  private:

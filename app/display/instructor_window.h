@@ -49,7 +49,7 @@ class InstructorWindow {
   };
   Input poll(const exhibit::LessonPrompt& prompt);
 
-  // Call once a frame. Draws what has changed, and redraws every second, since another window may have covered it.
+  // Call once a frame. Draws the changes, and redraws every second, since another window may have covered it.
   void show(const exhibit::InstructorState& state, std::int64_t now_ns, const std::function<void()>& while_waiting);
 
  private:

@@ -16,7 +16,7 @@ namespace afm::app {
 struct WallPicture {
   render::PicturePlace place;  // place of the composed picture in the window
   render::Composition composition;
-  std::array<scene::EyeView, 2> eyes;  // left and right picture
+  std::array<scene::EyeView, 2> eyes;  // views of the left and the right picture
   scene::Screen screen;                // screen filled by the picture
 };
 

@@ -9,7 +9,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kMostPatienceNs = 2'000'000'000;  // the time for which a heartbeat covers a slow frame
+constexpr std::int64_t kMostPatienceNs = 2'000'000'000;  // time for which a heartbeat covers a slow frame
 
 }  // namespace
 

@@ -8,7 +8,7 @@
 
 namespace afm::app {
 
-// Distinguishes a headset's frozen picture from a slow one. A picture is frozen after 250 ms; if one of the last
+// Distinguishes a headset's frozen picture from a slow one. A picture is frozen after 250 ms, or, if one of the last
 // pictures took more than half of that, after twice that picture's time, up to 2 s.
 class PictureAge {
  public:

@@ -18,7 +18,7 @@ namespace afm::app {
 
 namespace {
 
-constexpr std::int64_t kFrameNs = 33'000'000;  // half of a display's rate leaves the processor to the instrument
+constexpr std::int64_t kFrameNs = 33'000'000;  // half of a display's rate, which leaves the processor to the instrument
 
 }  // namespace
 
@@ -69,7 +69,7 @@ bool SpectatorWindow::follow_contact() {
   return true;
 }
 
-// False: the wall lacks the material. A curve begins only after its contact is known.
+// Takes the newest state. False: the wall lacks the material. A curve begins only after its contact is known.
 bool SpectatorWindow::take(double frame_s) {
   shown_ = showcase_.look([this](const std::string& material) { return place_of(material).has_value(); });
   if (!follow_contact()) return false;
@@ -102,7 +102,7 @@ void SpectatorWindow::take_lines() {
   if (!line_.playing()) line_.begin(shown_.lines.back());
 }
 
-// The tip on the line that is shown, otherwise where the instrument has it.
+// Places the tip on the displayed line, otherwise at the instrument's position.
 void SpectatorWindow::put_tip(exhibit::WallState& wall) const {
   const scene::TopographyScale scale = stage_.wall_scene.topography_scale(material_.value_or(0));
   const double stiffness_n_per_m = materials_[material_.value_or(0)].parameters.contact.spring_constant.si;

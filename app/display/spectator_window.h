@@ -44,7 +44,7 @@ class SpectatorWindow {
 
  private:
   bool leaves();
-  std::optional<std::size_t> place_of(const std::string& material) const;  // place of the material on the wall
+  std::optional<std::size_t> place_of(const std::string& material) const;  // index of the material on the wall
   bool take(double frame_s);
   void take_lines();
   bool follow_contact();
@@ -58,13 +58,13 @@ class SpectatorWindow {
   const core::Clock& clock_;
   std::unique_ptr<exhibit::FrameBuilder> frames_;
   instrument::Shown shown_;
-  std::shared_ptr<const curves::ContactSetup> followed_;  // shared with the showcase; contact of materials_
+  std::shared_ptr<const curves::ContactSetup> followed_;  // contact of materials_, shared with the showcase
   std::optional<std::size_t> material_;
-  std::uint64_t played_ = 0;  // curve that is or was played
+  std::uint64_t played_ = 0;  // number of the curve that is or was played
   exhibit::CurvePlayer player_;
   std::uint64_t image_number_ = 0;
-  std::unique_ptr<exhibit::ServedImage> image_;  // null: the curve is in front
-  exhibit::LinePlayer line_;                     // newest one when the last was over
+  std::unique_ptr<exhibit::ServedImage> image_;  // image in front; null: the curve
+  exhibit::LinePlayer line_;                     // line being played, or the last one
 };
 
 }  // namespace afm::app

@@ -47,7 +47,7 @@ ViewDisplay::ViewDisplay() = default;
 
 ViewDisplay::~ViewDisplay() = default;
 
-// Sizes for the windows as they have opened. Panels are as sharp as the screen with the finest pixels.
+// Sizes for the windows as opened. Panels are as sharp as the screen with the finest pixels.
 render::RendererOptions ViewDisplay::drawing(const exhibit::Stage& stage, const DisplayOptions& options) const {
   render::RendererOptions drawing;
   if (options.eye_width > 0) {

@@ -31,8 +31,8 @@ class ViewHeadset;
 class ViewDisplay {
  public:
   // `stage` must outlive the object. Fails as plan_view, ViewWindows and Context do, or if the display does not suit
-  // the stereo mode. `runtime` is that of the headset that shows the picture, whose left eye the windows then mirror;
-  // it may be null, and must outlive the object, as must the clock.
+  // the stereo mode. `runtime` is the runtime of the headset that shows the picture, whose left eye the windows then
+  // mirror; it may be null, and must outlive the object, as must the clock.
   static core::Result<std::unique_ptr<ViewDisplay>> open(const exhibit::Stage& stage, const DisplayOptions& options,
                                                          render::HeadsetRuntime* runtime, const core::Clock& clock);
   ~ViewDisplay();

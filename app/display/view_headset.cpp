@@ -117,7 +117,7 @@ std::optional<double> ViewHeadset::pose_age_s() const {
 
 MirroredEye ViewHeadset::locate_eyes(const std::function<void()>& while_waiting) {
   if (!wants_picture()) return resting_;
-  note_unseen();  // cleared when it is shown, as the runtime may provide no image
+  note_unseen();  // blind until the picture is shown, as the runtime may provide no image
   const auto eyes = headset_->locate_eyes(while_waiting);
   if (!eyes) return resting_;
   const auto& [left, right] = *eyes;

@@ -40,16 +40,16 @@ class ViewHeadset {
   // Call once a loop, before building the frame: waits for the runtime's next frame and logs events.
   void follow(const std::function<void()>& while_waiting);
 
-  // The runtime requests a frame in this turn: draw it for locate_eyes(), then show it.
+  // True if the runtime requests a frame in this turn: draw it for locate_eyes(), then show it.
   bool wants_picture() const { return turn_ == render::Headset::Turn::Frame; }
   // Eyes for the requested frame. If tracking is lost or no frame is requested: both eyes of a viewer at the sweet
   // spot.
   MirroredEye locate_eyes(const std::function<void()>& while_waiting);
-  // FrameState::panels_apart of the requested frame.
+  // Value of FrameState::panels_apart for the requested frame.
   std::size_t panels_apart() const { return wants_picture() ? headset_->most_panels() : 0; }
   void show();
 
-  // Returns whether the hand must be free because nobody sees the picture, or it is frozen. True at once if the headset
+  // True if the hand must be free because nobody sees the picture, or it is frozen. True at once if the headset
   // is off, lost or frozen; after the time that a picture may be frozen if the runtime hides the picture, has lost
   // the eyes or provides no image, or the graphics device hangs. A slow picture counts as seen.
   bool blind(std::int64_t now_ns) const;
@@ -59,7 +59,7 @@ class ViewHeadset {
   const char* turn_word() const;
   std::optional<double> pose_age_s() const;
 
-  // The controller as a wand; empty while the headset has none.
+  // Controller as a wand; empty if it is not connected.
   std::optional<input::WandState> wand(std::int64_t now_ns) const;
 
   // Pose between the eyes at their newest location.
@@ -80,7 +80,7 @@ class ViewHeadset {
   MirroredEye resting_;
   std::unique_ptr<render::Headset> headset_;
   render::Headset::Turn turn_ = render::Headset::Turn::Off;
-  std::optional<std::int64_t> unseen_since_ns_ = 0;  // beginning of blindness; empty while seen
+  std::optional<std::int64_t> unseen_since_ns_ = 0;  // beginning of blindness; empty while the picture is seen
   PictureAge picture_age_;
 };
 

@@ -86,7 +86,7 @@ core::Result<std::vector<ViewOutput>> one_window(const scene::Wall& wall, const 
 }  // namespace
 
 bool holds(const scene::Screen& screen, const glm::dvec3& point_m) {
-  constexpr double kEdge = 0.01;  // share of the screen's size
+  constexpr double kEdge = 0.01;  // relative to the screen's size
   const glm::dvec3 from_corner_m = point_m - screen.lower_left;
   const auto within = [&](const glm::dvec3& side_m) {
     const double share = glm::dot(from_corner_m, side_m) / glm::dot(side_m, side_m);

@@ -20,33 +20,33 @@ namespace afm::app {
 
 // One window of the live view: its part of the wall and its place on the desktop.
 struct ViewOutput {
-  std::string name;  // name in the wall file; empty: a window without a place in a wall file
+  std::string name;  // name in the wall file; empty: window without a place in a wall file
   scene::Screen screen;
   scene::StereoMode mode = scene::StereoMode::Mono;  // initial mode
   std::optional<scene::Eye> eye;                     // eye shown in mode dual
   scene::EyeOrder order = scene::EyeOrder::Straight;
   glm::dmat3 picture_from_output{1.0};
-  std::shared_ptr<const scene::WarpMesh> warp{};  // as in render::Composition
+  std::shared_ptr<const scene::WarpMesh> warp{};  // mesh and blending as in render::Composition
   std::shared_ptr<const scene::Blend> blend{};
   render::PictureFit fit = render::PictureFit::Proportions;
   render::WindowOptions window;
 
-  // The composition in another mode, if given, with the eyes optionally exchanged once more.
+  // Composition in another mode, if given, with the eyes optionally exchanged once more.
   render::Composition composition(std::optional<scene::StereoMode> other_mode, scene::EyeOrder other_order) const;
 };
 
-// True for a point of the screen, or of its edge: tiles that meet in it both hold it.
+// True for a point on the screen or on its edge; tiles that meet at it both hold it.
 bool holds(const scene::Screen& screen, const glm::dvec3& point_m);
 
 // Values of --size, --monitor and --fullscreen: one window, whatever outputs the wall file has.
 struct WindowOptions {
   std::optional<glm::uvec2> size_px;
-  std::string monitor;  // name or number; empty: any
+  std::string monitor;  // name or number of a monitor; empty: any
   bool full_screen = false;
 };
 
-// Has the window fill a monitor, given by its name or number; two of one make have one name, so only their numbers tell
-// them apart. DeviceMissing, listing the monitors, if there is none. `who` begins the message: "--monitor".
+// Makes the window fill a monitor, given by its name or number; monitors of one make share a name, so only the numbers
+// tell them apart. DeviceMissing, listing the monitors, if there is none. `who` begins the message: "--monitor".
 core::Result<void> fill_monitor(const std::string& who, const std::string& wanted,
                                 const std::vector<render::Monitor>& monitors, render::WindowOptions& window);
 
@@ -54,7 +54,7 @@ core::Result<void> fill_monitor(const std::string& who, const std::string& wante
 glm::uvec2 expected_size(const WindowOptions& window, const std::vector<render::Monitor>& monitors);
 
 // Plans a window for each of the wall file's outputs, or one window for the whole stage, or in mode dual one for each
-// eye. `monitors` are those of this desktop; `stage` is the content of a single window, as Stage::screen.
+// eye. `monitors` are those of this desktop; `stage` is the screen of a single window, as Stage::screen.
 // DeviceMissing, naming output and monitors, if a monitor does not exist or a corner of an output is on none of them.
 // WrongUsage if an output in mode dual has no eye, or if there are too many windows.
 core::Result<std::vector<ViewOutput>> plan_view(const scene::Wall& wall, const scene::Screen& stage,

@@ -123,7 +123,7 @@ void ViewPicture::follow(const cluster::ShownView& view) {
   drawn_ipd_m_ = view.drawn_ipd_m;
   head_ = exhibit::head_of(view.head);
   auto mode = view.mode < 0 ? std::nullopt : std::optional(static_cast<scene::StereoMode>(view.mode));
-  if (mode && !can_show(*mode)) mode.reset();  // back to its own mode
+  if (mode && !can_show(*mode)) mode.reset();  // mode impossible here: the output's own
   const bool swapped = (view.flags & Shown::kSwapped) != 0;
   const auto order = swapped ? scene::EyeOrder::Swapped : scene::EyeOrder::Straight;
   const bool calibrating = (view.flags & Shown::kCalibration) != 0;
@@ -146,7 +146,7 @@ void ViewPicture::swap_eyes() {
   core::log_line(straight ? "eyes swapped" : "eyes not swapped");
 }
 
-// Mode dual needs a window for each eye.
+// True if the windows can show the mode; mode dual needs a window for each eye.
 bool ViewPicture::can_show(scene::StereoMode mode) const {
   const bool pairs = std::all_of(outputs_.begin(), outputs_.end(), [](const auto& output) { return output.eye; });
   return presenter_.check_mode(mode) && (mode != scene::StereoMode::Dual || pairs);
@@ -190,7 +190,7 @@ WallPicture ViewPicture::picture(std::size_t window) const {
           .screen = share->screen};
 }
 
-// Measures the eyes' effort in an earlier frame. Logs when it becomes excessive, and now and then.
+// Measures the effort of the eyes in an earlier frame. Logs when it becomes excessive, and at intervals.
 void ViewPicture::measure_depth(exhibit::Relief relief, std::int64_t now_ns) {
   if (follows_ || shares_.front().flat || calibrating_ || now_ns - depth_measured_ns_ < kMeasureNs) return;
   depth_measured_ns_ = now_ns;

@@ -33,12 +33,12 @@ class ViewHeadset;
 
 struct PictureSettings {
   double ipd_m = 0.063;
-  glm::uvec2 eye_px{0};                                  // size with which the renderer was made
-  bool fixed_eye_size = false;                           // false: the eyes get as many pixels as the windows can show
-  double comfort_rad = scene::kComfortableDisparityRad;  // largest change of convergence from the wall's
-  double frame_budget_ms = 0;                            // resolution drops to keep frames within it; 0: never
-  std::string saved_folder = ".";                        // receives the saved pictures
-  ViewHeadset* headset = nullptr;  // mirrored in the window (left eye); must outlive the object; may be null
+  glm::uvec2 eye_px{0};                                  // size with which the renderer was created
+  bool fixed_eye_size = false;                           // true: size never adapted to the windows
+  double comfort_rad = scene::kComfortableDisparityRad;  // largest deviation of the convergence from that for the wall
+  double frame_budget_ms = 0;                            // time per frame, kept by lower resolution; 0: no limit
+  std::string saved_folder = ".";                        // folder for saved pictures
+  ViewHeadset* headset = nullptr;                        // mirrored in the window (left eye); not owned, may be null
 };
 
 // Picture of the wall in the live windows: eyes, layout and size. Main thread only.
@@ -75,7 +75,7 @@ class ViewPicture {
   // Call instead of show() while the windows are invisible.
   void rest() { times_.hidden(); }
 
-  // Time since when no window has accepted a picture, as where the display has no use for one; none while one does.
+  // Time since which no window has accepted a picture, because the display has no use for one; none while one does.
   std::optional<std::int64_t> refused_since_ns() const { return refused_since_ns_; }
 
   // Waits for the last screenshots; logs them and the frame times.
@@ -93,7 +93,7 @@ class ViewPicture {
   };
   Viewing viewing() const { return {head_, drawn_ipd_m_, mode(), other_order_}; }
 
-  // The viewing as sent to the other machines of a wall, and its counterpart there, which from then on uses the
+  // Viewing for the other machines of a wall, and its counterpart there, which from then on uses the
   // master's measured depth.
   cluster::ShownView told() const;
   void follow(const cluster::ShownView& view);
@@ -111,7 +111,7 @@ class ViewPicture {
       const std::function<void()>& while_waiting, const std::function<void()>& before_showing = [] {});
 
  private:
-  // A picture that is drawn once and shown in one or more windows: one screen for two eyes or for the midpoint between
+  // A picture that is drawn once and shown in one or more windows: one screen, for two eyes or for the midpoint between
   // them.
   struct Share {
     scene::Screen screen;
@@ -135,7 +135,7 @@ class ViewPicture {
   render::Renderer& renderer_;
   render::Presenter& presenter_;
   PictureSettings settings_;
-  std::optional<scene::StereoMode> other_mode_;  // overrides the outputs' own mode
+  std::optional<scene::StereoMode> other_mode_;  // mode that overrides the outputs' own; none: no override
   scene::EyeOrder other_order_ = scene::EyeOrder::Straight;
   std::vector<Share> shares_;
   std::vector<render::WindowPicture> pictures_;  // one per window
@@ -147,9 +147,9 @@ class ViewPicture {
   double drawn_ipd_m_;  // eye distance of the drawing: the viewer's, or less for comfort
   exhibit::ComfortClamp comfort_;
   std::optional<DynamicResolution> budget_;
-  bool rehearsed_ = false;  // the least quality has been drawn
+  bool rehearsed_ = false;  // true: drivers prepared by a frame of the least quality
   render::ScreenshotQueue saver_;
-  std::size_t to_save_ = 0;       // pending requests
+  std::size_t to_save_ = 0;       // number of pending requests
   std::size_t saved_number_ = 0;  // number of the newest file
   render::DepthMeter depth_meter_;
   exhibit::DepthReport depth_;
@@ -158,7 +158,7 @@ class ViewPicture {
   std::int64_t depth_logged_ns_ = 0;
   std::int64_t mirrored_ns_ = 0;
   bool calibrating_ = false;
-  bool follows_ = false;  // follows another machine's drawing options
+  bool follows_ = false;  // true: drawing options from another machine
 };
 
 // Eye image size that the windows can show, as large as the largest needs, in `other_mode` or else in the outputs' own

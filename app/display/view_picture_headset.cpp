@@ -8,7 +8,7 @@ namespace afm::app {
 
 namespace {
 
-// Longer than a frame of any display, so that the headset never waits for the window.
+// Interval longer than a frame of any display, so that the headset never waits for the window.
 constexpr std::int64_t kMirrorNs = 33'000'000;
 
 }  // namespace

@@ -20,7 +20,7 @@ struct ViewEvent {
 // Input from all windows since the last call.
 struct ViewInput {
   std::vector<ViewEvent> events;
-  std::size_t window = 0;  // newest window under the cursor
+  std::size_t window = 0;  // window under the cursor most recently
   glm::dvec2 cursor_px{0.0};
   bool close_requested = false;
 };
@@ -39,7 +39,7 @@ class ViewWindows {
   std::vector<render::Window*> all() const;
   bool hidden() const;  // all of them are invisible
 
-  // Windows whose screen holds a point of the room.
+  // Windows whose screen contains a point of the room.
   std::vector<render::Window*> that_show(const glm::dvec3& point_m) const;
 
   // Switches all windows that have no rectangle in the wall file.
@@ -55,7 +55,7 @@ class ViewWindows {
   std::vector<std::unique_ptr<render::Window>> windows_;
   std::vector<scene::Screen> screens_;
   std::vector<std::string> names_;                      // names of the outputs in the wall file
-  std::vector<std::optional<scene::PixelRect>> rects_;  // rectangles of the outputs that have one
+  std::vector<std::optional<scene::PixelRect>> rects_;  // rectangles of the outputs; empty: none in the wall file
   std::vector<glm::dvec2> cursors_;                     // cursor in each window
   std::vector<glm::dvec2> origins_;                     // position of each window on the desktop
   std::size_t window_ = 0;

@@ -82,7 +82,7 @@ Finding graphics(const MachineFacts& facts) {
           all.empty() ? facts.graphics_refusal : fmt::format("{}: {}", all.front().name, all.front().reason), fix};
 }
 
-// Matters only where the processor draws.
+// Finding on the processor's drawing, for machines where the processor draws.
 Finding drawing(const MachineFacts& facts) {
   constexpr const char* kCheck = "drawing priority";
   if (!facts.drawing_refused) {

@@ -11,14 +11,14 @@ namespace afm::app {
 enum class Verdict {
   Good,
   Limited,  // works, but not as well as it could
-  Missing,  // an optional feature does not work
+  Missing,  // optional feature that does not work
 };
 
 struct Finding {
   std::string check;
   Verdict verdict = Verdict::Good;
   std::string found;
-  std::string fix;  // command or instruction that fixes it; empty if good
+  std::string fix;  // command or instruction as a remedy; empty if good
 };
 
 // Returns one finding per check, in a fixed order.

@@ -31,7 +31,7 @@ namespace afm::app {
 namespace {
 
 constexpr auto kBetweenFrames = std::chrono::milliseconds(50);
-constexpr std::size_t kEnoughAnswers = 10;  // needed from each node
+constexpr std::size_t kEnoughAnswers = 10;  // number needed from each node
 constexpr double kSlowRoundMs = 5.0;        // limit for an idle network
 
 struct NodeAnswers {

@@ -40,7 +40,7 @@ std::string nodes_text(const char* what, const std::vector<DeviceNode>& nodes) {
   return text;
 }
 
-// Names of the devices that were found, as a line has them before its figures.
+// Names of the devices that were found, as printed before the figures in each line.
 std::vector<std::string> names_of(const std::vector<haptics::ProbeLine>& lines) {
   std::vector<std::string> names;
   for (const haptics::ProbeLine& line : lines) {

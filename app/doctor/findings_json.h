@@ -8,7 +8,7 @@
 
 namespace afm::app {
 
-// The array "checks" of touchafm doctor --json.
+// Array "checks" of touchafm doctor --json.
 nlohmann::json to_json(const std::vector<Finding>& findings);
 
 }  // namespace afm::app

@@ -67,7 +67,7 @@ std::string display() {
   return names;
 }
 
-// Parts that this machine lacks; an OpenXR loader only where a headset's runtime is installed.
+// Parts that this machine lacks; an OpenXR loader only if a headset's runtime is installed.
 std::vector<core::SystemPart> missing_parts(bool has_headset_runtime) {
   std::vector<core::SystemPart> parts = core::parts_without_libraries();
   if (!has_headset_runtime) std::erase(parts, core::SystemPart::OpenXrLoader);
@@ -94,7 +94,7 @@ MachineFacts look_at_machine(const core::Clock& clock, const std::string& progra
   }
   facts.display = display();
   if (!facts.display.empty()) {
-    const render::SaverInhibition saver;  // its connection keeps alive a server that ends with its last client
+    const render::SaverInhibition saver;  // open connection, which keeps a server alive that ends with its last client
     facts.saver = fmt::format("X's screen saver: {}; org.freedesktop.ScreenSaver: {}", saver.x_server().said,
                               saver.session().said);
     facts.saver_stays_off = saver.works();

@@ -16,7 +16,7 @@ namespace afm::app {
 // A device file in /dev.
 struct DeviceNode {
   std::string path;
-  bool accessible = false;  // the current user may read and write it
+  bool accessible = false;  // true: readable and writable for the current user
 };
 
 // Facts about this machine, without a verdict.
@@ -26,25 +26,25 @@ struct MachineFacts {
   std::optional<std::uint64_t> locked_memory_limit_bytes;  // empty: unlimited
   bool pages_can_be_locked = false;
   SchedulingLatency jitter;
-  bool drawing_refused = false;  // a larger share of the processors for drawing, as haptics::favour_drawing() requests
+  bool drawing_refused = false;  // true: request of haptics::favour_drawing() refused
   std::vector<render::DeviceDescription> graphics;
-  std::string graphics_refusal;  // reason why there are none
-  std::string display;           // name; empty: none
-  std::string display_refusal;   // reason why it has no window for view; empty: it has
-  std::string saver;             // ways to keep the screen saver off while a window is open
+  std::string graphics_refusal;  // reason why `graphics` is empty
+  std::string display;           // name of the display; empty: none
+  std::string display_refusal;   // reason why `view` cannot open a window; empty: it can
+  std::string saver;             // means of keeping the screen saver off while a window is open
   bool saver_stays_off = false;
-  std::string headset_manifest;  // file of the OpenXR runtime; empty: none is installed
+  std::string headset_manifest;  // file of the OpenXR runtime; empty: not installed
   bool headset_manifest_exists = true;
-  std::string headset;          // description by the runtime; empty: it does not answer
-  std::string headset_refusal;  // reason if it does not answer
+  std::string headset;          // description from the runtime; empty: no answer
+  std::string headset_refusal;  // reason for a missing answer
   std::vector<DeviceNode> render_nodes;
   std::vector<DeviceNode> hid_nodes;
   std::vector<haptics::HapticPort> haptic_ports;
   std::vector<haptics::ProbeLine> haptics;
-  const core::PackageSystem* packages = nullptr;  // null: an unknown distribution
+  const core::PackageSystem* packages = nullptr;  // package system; null: an unknown distribution
   std::vector<core::SystemPart> missing_parts;    // missing parts other than drivers and fonts
   std::string servo_program;
-  std::string missing_program;  // servo or watchdog, if it cannot be run; empty: none is missing
+  std::string missing_program;  // servo or watchdog that cannot be run; empty: none
 };
 
 // Examines the machine; takes slightly longer than `jitter_seconds`. `program` is the running touchafm.

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kShortestName = 3;
 constexpr std::string_view kEndsPath = " \t\n\"':,;)";
 
-// Folders of the system, whose names say nothing about people.
+// Folders of the system, whose names reveal nothing about people.
 constexpr auto kSystemFolders =
     std::to_array<std::string_view>({"/usr/", "/lib/", "/lib32/", "/lib64/", "/bin/", "/sbin/", "/etc/", "/dev/",
                                      "/proc/", "/sys/", "/boot/", "/var/lib/", "/run/user/"});
@@ -53,7 +53,7 @@ void replace_all(std::string& text, std::string_view what, std::string_view by) 
   }
 }
 
-// /home/NAME of any user.
+// Replaces /home/NAME of any user.
 void replace_homes(std::string& text) {
   constexpr std::string_view kHomes = "/home/";
   for (std::size_t at = text.find(kHomes); at != std::string::npos; at = text.find(kHomes, at)) {
@@ -67,7 +67,7 @@ bool is_system_path(std::string_view path) {
                      [&](std::string_view folder) { return path.starts_with(folder); });
 }
 
-// ".../libHD.so"; empty for a path that may stay.
+// Short form such as ".../libHD.so"; empty for a path that may stay.
 std::string shortened(std::string_view path) {
   const std::size_t name = path.find_last_of('/');
   if (name == std::string_view::npos || name == 0 || is_system_path(path)) return {};
@@ -113,7 +113,7 @@ void add_person(PrivateWords& secrets, const passwd* person) {
   for (std::string word; full_name >> word;) add(secrets.users, word);
 }
 
-// A computer's name alone, and with its domain.
+// Adds a computer's name, with and without its domain.
 void add_host(PrivateWords& secrets, const std::string& host) {
   if (host.empty() || host == "localhost" || host == "unix" || host.front() == '/') return;
   add(secrets.hosts, host);

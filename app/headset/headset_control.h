@@ -23,7 +23,7 @@ class HeadsetControl final : public ViewControl {
  private:
   ViewParts& parts_;
   ViewHeadset& headset_;
-  std::optional<std::int64_t> felt_ring_ns_;  // beginning of the newest ring of light that the controller has signalled
+  std::optional<std::int64_t> felt_ring_ns_;  // beginning of the newest ring of light signalled by the controller
 };
 
 }  // namespace afm::app

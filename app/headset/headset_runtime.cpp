@@ -21,7 +21,7 @@ std::string from_environment(const char* name) {
 // NOLINTNEXTLINE(concurrency-mt-unsafe): no command has another thread then that asks
 void silence_loader() { ::setenv("XR_LOADER_DEBUG", "none", 0); }
 
-// OpenXR's loader says only that there is no runtime.
+// Checks the manifest named by the user, since OpenXR's loader reports only that there is no runtime.
 core::Result<void> check_named_manifest() {
   const std::string named = from_environment("XR_RUNTIME_JSON");
   std::error_code ignored;

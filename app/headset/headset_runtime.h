@@ -16,7 +16,7 @@ std::string headset_manifest();
 // Changes the environment, so call it before starting any other thread.
 core::Result<std::unique_ptr<render::HeadsetRuntime>> connect_headset();
 
-// The runtime's description of itself, and the same as text: "Index through SteamVR 1.2.3, head-mounted display, ...".
+// Description by the runtime, and the same as text: "Index through SteamVR 1.2.3, head-mounted display, ...".
 core::Result<render::HeadsetDescription> find_headset();
 std::string text_of(const render::HeadsetDescription& headset);
 

@@ -33,7 +33,7 @@ void InstructorControl::take(const ViewInput& /*input*/, const ViewFrame& frame)
   if (hand_off_) parts_.choice.stop_force();
 }
 
-// Enter is Stop alone: at the wall it would also answer for the participant.
+// Handles a key. Enter is only Stop: at the wall it would also answer for the participant.
 void InstructorControl::press(render::Key key) {
   if (key != render::Key::Enter) return press_key_(key);
   parts_.choice.stop_force();

@@ -21,7 +21,7 @@ struct ViewParts;
 // The instructor of a lesson, who uses a separate window.
 class InstructorControl final : public ViewControl {
  public:
-  // `press_key` receives the keys that belong to the wall. All arguments must outlive the object.
+  // `press_key` receives the keys meant for the wall. All arguments must outlive the object.
   InstructorControl(ViewParts& parts, exhibit::LiveLesson& lesson, InstructorWindow& window,
                     std::function<void(render::Key)> press_key);
 
@@ -36,7 +36,7 @@ class InstructorControl final : public ViewControl {
   exhibit::LiveLesson& lesson_;
   InstructorWindow& window_;
   std::function<void(render::Key)> press_key_;
-  bool hand_off_ = false;  // the instructor has disabled the force
+  bool hand_off_ = false;  // true: force disabled by the instructor
   std::optional<std::int64_t> stop_asked_ns_;
 };
 

@@ -43,7 +43,7 @@ bool LessonControl::number(std::size_t number) {
 
 void LessonControl::step(int steps) { lesson_.step(steps); }
 
-// Enter removes the force whatever else it does. Without a force, in a lesson that waits for Enter, it only continues.
+// Handles Enter, which always removes the force. Without a force, in a lesson that waits for it, it only continues.
 void LessonControl::enter() {
   const bool waits = !lesson_.prompt().by_hand();
   if (!waits || parts_.servo.link().tip().servo_state != scene::ServoState::Disarmed) parts_.choice.stop_force();
@@ -97,7 +97,7 @@ void LessonControl::update(const ViewFrame& frame) {
   if (asks() || !lesson_.has_force()) parts_.choice.keep_force_away(frame.now_ns);
 }
 
-// The servo does it without a force alone.
+// Requests the particles' return, which the servo only carries out without a force.
 void LessonControl::put_particles_back(std::int64_t now_ns) {
   parts_.choice.keep_force_away(now_ns);
   servo::ServoClient& servo = parts_.servo.link();
@@ -106,7 +106,7 @@ void LessonControl::put_particles_back(std::int64_t now_ns) {
   if (lesson_.orders_particles_back()) servo.put_particles_back(now_ns);
 }
 
-// A blind sample looks like the first one, whichever it is, and has no labels; a lever that taps rests, and no ring
+// Hides blind samples: they look like the first one and have no labels; a tapping lever rests, and no ring
 // shows its jumps.
 void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   if (!lesson_.prompt().hidden) return;
@@ -149,7 +149,7 @@ void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame&
   }
 }
 
-// While the hand has nothing to do, the line above the wall is the question, or how to continue.
+// Question, or how to continue, in the line above the wall while the hand has nothing to do.
 std::optional<std::string> LessonControl::guidance(const exhibit::Phrases& phrases) const {
   const exhibit::LessonPrompt& prompt = lesson_.prompt();
   if (prompt.by_hand()) {

@@ -42,12 +42,12 @@ class LessonControl final : public ViewControl, public ViewGuide {
   std::optional<exhibit::LessonTarget> target_at(const input::Ray& ray) const;
   void follow_hand();
   void put_particles_back(std::int64_t now_ns);
-  bool asks() const;  // an answer is due
+  bool asks() const;  // true if an answer is due
 
   ViewParts& parts_;
   exhibit::LiveLesson& lesson_;
-  bool far_enough_ = false;  // announced
-  std::string said_, line_;  // spoken text of the newest prompt, and the guidance after it
+  bool far_enough_ = false;  // true: arrival at the end of the line already announced
+  std::string said_, line_;  // spoken text of the newest prompt, and guidance after it
 };
 
 }  // namespace afm::app

@@ -59,7 +59,7 @@ core::Result<void> read_range(const std::string& text, LeverOptions& options) {
   return {};
 }
 
-// Inputs that can have an uncertainty. The tilt is no part of k, and a known k has no calibration.
+// True for inputs that can have an uncertainty. The tilt is no part of k, and a known k has no calibration.
 bool may_be_uncertain(LeverInput input) { return input != LeverInput::Tilt && input != LeverInput::SpringConstant; }
 
 std::string uncertain_names() {
@@ -86,7 +86,7 @@ core::Result<void> read_uncertainties(const std::vector<std::string>& texts, Lev
   return {};
 }
 
-// Options by the table of inputs.
+// Adds the options of the table of inputs.
 void add_inputs(OptionList& command, const Option& thermal, const Option& sader, LeverInputs& inputs) {
   for (const LeverInputRow& row : curves::kLeverInputs) {
     if (row.help.empty()) continue;

@@ -11,7 +11,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// Shows the keeper of a kiosk that the window draws, and ends the window with its keeper.
+// Informs the keeper of a kiosk that the window still draws, and ends the window with its keeper.
 class KeptControl final : public ViewControl {
  public:
   KeptControl(ViewParts& parts, servo::KeptBeat& beat) : parts_(parts), beat_(beat) {}

@@ -23,7 +23,7 @@ struct ViewSettings;
 struct LiveFeatures {
   ViewHeadset* headset = nullptr;          // draws the picture if set
   ClusterMaster* cluster = nullptr;        // other machines of the wall
-  exhibit::LiveLesson* lesson = nullptr;   // guides through the window
+  exhibit::LiveLesson* lesson = nullptr;   // guide through the window
   InstructorWindow* instructor = nullptr;  // the lesson's second window
 };
 

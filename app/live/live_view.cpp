@@ -185,7 +185,7 @@ void LiveView::draw(const ViewInput& input, ViewFrame& frame) {
 
 void LiveView::log_guidance() {
   const servo::ServoClient& servo = parts_.servo.link();
-  if (servo.tip().material < 0 && servo.chosen() >= 0) return;  // the chosen sample is on its way
+  if (servo.tip().material < 0 && servo.chosen() >= 0) return;  // chosen sample not yet under the tip
   const std::string line = parts_.controls.guidance(parts_.stage.english);
   if (std::exchange(logged_guidance_, line) != line) core::log_line(line);
 }

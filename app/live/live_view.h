@@ -26,8 +26,8 @@ class LiveView {
  public:
   struct Settings {
     double most_frames_per_s = 60.0;
-    std::string frame_log;    // a file; empty: none is written
-    bool unattended = false;  // closing a window does not end the loop
+    std::string frame_log;    // file name; empty: no log
+    bool unattended = false;  // true: closing a window does not end the loop
   };
 
   // `press_key` receives every key press. All arguments must outlive the object.

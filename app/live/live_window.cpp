@@ -22,7 +22,7 @@ namespace afm::app {
 
 namespace {
 
-// Owns the objects that the controls share, in reverse order of their destruction.
+// Objects shared by the controls, in reverse order of their destruction.
 struct LiveWindow {
   LiveWindow(const LiveWindowParts& given, const ViewSettings& settings)
       : panels(given.stage.wall_scene, given.materials, key_list),

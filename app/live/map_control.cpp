@@ -27,7 +27,7 @@ namespace afm::app {
 
 namespace {
 
-// 1, 2 or 5 times a power of ten, not above.
+// Largest 1, 2 or 5 times a power of ten that is not above `value`.
 double round_below(double value) {
   const double decade = std::pow(10.0, std::floor(std::log10(value)));
   for (const double factor : {5.0, 2.0}) {
@@ -81,7 +81,7 @@ MapView MapControl::view() const {
   return view;
 }
 
-// The controls before this one have decided what the wall shows.
+// Adds the map to the wall, whose content the earlier controls have decided.
 void MapControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   wall_ = now.wall;
   retracting_ = now.retracting;
@@ -93,7 +93,7 @@ void MapControl::check_vibration() {
   if (sample == nullptr || sample->parameters.map_vibration == scene::MapVibration::None || !parts_.servo.running())
     return;
   const scene::SharedDevice& device = parts_.servo.link().device();
-  if (device.max_force_n == 0.0) return;  // device not known yet
+  if (device.max_force_n == 0.0) return;  // unknown device
   checked_ = true;
   if (device.max_vibration_n > 0.0) return;
   core::log_line(fmt::format("force map: the profile of the {} has no vibration; the map is felt without it",

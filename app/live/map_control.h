@@ -15,14 +15,14 @@ namespace afm::app {
 
 struct ViewParts;
 
-// A force map that is felt whole, on its sample: key F10 chooses what is seen of its curves. Sessions of one pixel keep
-// what its picture shows.
+// A whole felt force map on its sample; key F10 selects the visible part of its curves. Sessions of one pixel store
+// the quantity of its picture.
 class MapControl final : public ViewControl {
  public:
-  // `equal_force_n` is that of the surface that is shown first; empty: none.
+  // `equal_force_n` is the force of the surface shown first; empty: none.
   MapControl(ViewParts& parts, std::optional<double> equal_force_n);
 
-  // Shows the slice, the surface of equal force, both, or neither; without such a map, a line of the log says so.
+  // Shows the slice, the surface of equal force, both, or neither; without such a map, logs that there is none.
   void next_volume();
 
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
@@ -33,16 +33,16 @@ class MapControl final : public ViewControl {
  private:
   enum class Seen { Nothing, Slice, Surface, Both };
 
-  const curves::SampleModel* map() const;  // null: another sample, or none, is under the tip
+  const curves::SampleModel* map() const;  // map under the tip; null: another sample, or none
   MapView view() const;
   void add_pixel_to_session(servo::WallFrame& shown) const;
-  void check_vibration();  // report of a device that cannot vibrate
+  void check_vibration();  // logs if the device cannot vibrate
 
   ViewParts& parts_;
-  exhibit::WallState wall_;  // the frame's
+  exhibit::WallState wall_;  // wall of the current frame
   bool retracting_ = false;
-  bool checked_ = false;                               // the vibration, once the device was known
-  Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // now, and at the start
+  bool checked_ = false;                               // true: vibration checked, since the device is known
+  Seen seen_ = Seen::Nothing, first_ = Seen::Nothing;  // current part, and the one at the start
   std::optional<double> equal_force_n_;
   MapOverlay overlay_;
 };

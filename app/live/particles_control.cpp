@@ -36,7 +36,7 @@ namespace afm::app {
 
 namespace {
 
-// Lines of the log about what can be taken back.
+// Log texts about actions that can be taken back.
 struct StrokeWords {
   const char *none, *last, *all;
 };
@@ -55,7 +55,7 @@ const StrokeWords& words_of(const scene::ParticleSet& set) {
 
 constexpr const char* kNoLevelIfBlind = "no level: the task of this set is done without a picture";
 
-// Loads of a look in units of the gentle one, the first at the start.
+// Loads of a look in units of the gentle one; the initial one first.
 constexpr std::array kLookLoads{0.5, 2.0, 5.0};
 
 std::uint32_t piconewtons(double n) { return static_cast<std::uint32_t>(std::max(1L, std::lround(1e12 * n))); }
@@ -150,7 +150,7 @@ void ParticlesControl::next_look_load() {
                              text_of(gentle)));
 }
 
-// Until it ends, once a frame.
+// Continues a look until it ends, once a frame.
 void ParticlesControl::sweep(const ViewFrame& frame) {
   const servo::LivePicture* picture = parts_.servo.picture();
   const auto square = picture != nullptr ? picture->square() : std::nullopt;
@@ -264,7 +264,7 @@ bool ParticlesControl::point(const input::Ray& ray) {
   const auto on_sample = exhibit::ray_on_sample(parts_.stage.wall_scene, *shown_, ray);
   const auto planned = on_sample ? planner_->point(*on_sample, now_) : std::nullopt;
   if (!planned) return false;
-  if (begins && unplanned() && parts_.servo.picture() != nullptr) {  // first point, at the bare sample
+  if (begins && unplanned() && parts_.servo.picture() != nullptr) {  // first point, on the bare sample
     look_again();
     return true;
   }

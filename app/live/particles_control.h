@@ -29,7 +29,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// Shows the particles where the servo has moved them, has it take pushes back, keeps the score of the task, and plans
+// Shows the particles as moved by the servo, requests that pushes be taken back, keeps the score of the task, and plans
 // pushes.
 class ParticlesControl final : public ViewControl {
  public:
@@ -37,24 +37,24 @@ class ParticlesControl final : public ViewControl {
   ParticlesControl(ViewParts& parts, const scene::ParticleSet& set);
   ~ParticlesControl() override;
 
-  // Takes the newest push back, after the force has been taken from the hand.
+  // Takes the newest push back, after the force has been removed from the hand.
   void take_back();
 
-  // Plans another sphere, another place for it, or has a groove guide the hand along the plan.
+  // Plans another sphere or another place for it, or lets a groove guide the hand along the plan.
   void plan_next_particle();
   void plan_next_place();
   void toggle_groove();
 
-  // Measures the particles near the tip again, at level 1 and 2, as soon as the tip is lifted.
+  // Takes a second look at the particles near the tip, at levels 1 and 2, as soon as the tip is lifted.
   void look_again();
 
-  // Chooses the next load of a look, gentle or not.
+  // Selects the next load of a look, gentle or not.
   void next_look_load();
 
-  // Chooses the next value of a setting among particles, or says why there is none: the other tool, for instance.
+  // Selects the next value of a setting among particles, such as the other tool, or reports why there is none.
   void choose_next(scene::PushSetting setting);
 
-  // Announces the next setting, or chooses the next value of the one that was announced last.
+  // Announces the next setting, or selects the next value of the setting last announced.
   void mark_next_setting();
   void change_marked_setting();
 
@@ -62,7 +62,7 @@ class ParticlesControl final : public ViewControl {
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   void restart(Restart what) override;
 
-  // Where the tip leaves marks, while the force is on.
+  // Guidance for a tip that leaves marks, while the force is on.
   std::optional<std::string> guidance(const exhibit::Phrases& phrases) const override;
 
  private:
@@ -71,15 +71,15 @@ class ParticlesControl final : public ViewControl {
   // Settings for the servo; `text` names the changed one in the log.
   void choose(const scene::PushSettings& settings, const std::string& text);
 
-  // Nothing if the settings can be used here.
+  // Empty if the settings can be used here.
   std::optional<scene::PushRefusal> refusal(const scene::PushSettings& settings) const;
 
-  // The servo carries it out only without force, so the request waits until there is none.
+  // Requests an order; the servo only carries it out without force, so it waits until there is none.
   void give(Order order);
 
   void begin_task();
 
-  // Gives an order that has waited, once the servo can carry it out.
+  // Sends a waiting order once the servo can carry it out.
   void carry_out(std::int64_t now_ns);
 
   // Announces that the pattern is done.
@@ -88,13 +88,13 @@ class ParticlesControl final : public ViewControl {
   // Hides the picture of a blind task, and announces that its particle is far enough.
   void follow_blind();
 
-  // Shows the set with the settings that the servo uses, and announces them once they are others.
+  // Shows the set with the settings that the servo uses, and announces changed ones.
   void follow_settings();
 
   // Announces that the particles are jammed.
   void follow_jam();
 
-  // While a look goes on with a load that is not gentle, the servo sweeps the particles.
+  // Makes the servo sweep the particles during a look whose load is not gentle.
   void sweep(const ViewFrame& frame);
 
   bool point(const input::Ray& ray);
@@ -108,12 +108,12 @@ class ParticlesControl final : public ViewControl {
   Order order_ = Order::None;
   std::unique_ptr<scene::AdjustedSet> adjusted_;
   std::unique_ptr<exhibit::JamWatch> jam_;
-  scene::PushSettings settings_{};               // settings in use, as far as announced
-  std::optional<std::size_t> marked_;            // index into kPushSettings, or its size: the load of a look
+  scene::PushSettings settings_{};               // settings in use, as last announced
+  std::optional<std::size_t> marked_;            // index into kPushSettings; its size means the load of a look
   std::size_t look_load_ = 0;                    // index into the loads
-  bool far_enough_ = false;                      // announced
-  bool sweeps_ = false;                          // true: the servo has been informed of a look
-  std::unique_ptr<exhibit::ParticleTask> task_;  // only for a set with a task
+  bool far_enough_ = false;                      // true: arrival at the end of the line already announced
+  bool sweeps_ = false;                          // true: servo informed of the current look
+  std::unique_ptr<exhibit::ParticleTask> task_;  // task of the set; null: none
 };
 
 }  // namespace afm::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The task among particles: its score, its words, and a wall that is dark until it is done.
+// Task among particles: its score, its texts, and a wall that is dark until it is done.
 #include <fmt/format.h>
 
 #include <memory>
@@ -33,7 +33,7 @@ void ParticlesControl::follow_jam() {
   parts_.sound.narrator().happened(exhibit::HeardEvent::ParticleJammed, parts_.servo.link().tip().material, *held_n);
 }
 
-// A new servo has every particle at its start, and no push to take back.
+// Begins the task for a new servo, with every particle at its start and no push to take back.
 void ParticlesControl::begin_task() {
   if (task_) task_ = std::make_unique<exhibit::ParticleTask>(set_);
   now_.score = {};

@@ -28,7 +28,7 @@ class PlaceControl final : public ViewControl {
   // Moves the contact into the wall's plane, where both eyes see it at the same place.
   void bring_to_wall();
 
-  // Lets a lever that taps swing visibly, slowed down, or not.
+  // Switches the slow-motion view of a tapping lever's swing.
   void toggle_stroboscope();
 
   void update(const ViewFrame& frame) override;
@@ -43,8 +43,8 @@ class PlaceControl final : public ViewControl {
   ViewParts& parts_;
   Eyes eyes_;
   input::ViewHead head_;
-  input::SimulatedHead simulated_head_;  // used if there is no tracker
-  glm::dmat4 to_wall_{1.0};              // applied after the wand's navigation
+  input::SimulatedHead simulated_head_;  // head used without a tracker
+  glm::dmat4 to_wall_{1.0};              // transform after the wand's navigation
   bool stroboscope_ = false;
 };
 

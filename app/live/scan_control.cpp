@@ -157,7 +157,7 @@ void ScanControl::toggle_truth() {
   core::log_line(scan_->progress().truth ? "scan: showing what the tip could not reach" : "scan: showing the retrace");
 }
 
-// Runs in the frame loop: the work of a frame takes a fraction of a millisecond and is bounded even after a late frame.
+// Advances the scan: the work takes a fraction of a millisecond per frame and is bounded even after a late frame.
 void ScanControl::update(const ViewFrame& frame) {
   if (!scan_) return;
   if (const auto material = parts_.servo.material(); material && *material != material_) return begin();
@@ -193,7 +193,7 @@ void ScanControl::move_simulated_hand(double frame_s) {
   const bool at_top = tip.phase == physics::Phase::Free && tip.tip.z_m > tip.active.release_z_m;
   if (script_.revision == 0) {
     if (!force || !at_top) return;
-    script_.revision = parts_.hand.person().hand().revision + 1'000'000;  // never used by the person
+    script_.revision = parts_.hand.person().hand().revision + 1'000'000;  // revision never used by the person
     aim_m_ = place_m;
     way_s_ = 0;
   }

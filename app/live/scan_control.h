@@ -48,11 +48,11 @@ class ScanControl final : public ViewControl {
   scene::ScanHand hand_ = scene::ScanHand::Apart;
   bool feedback_ = true;
   bool false_colours_ = false;  // colours of the sample while no image is taken
-  exhibit::HandSize size_;      // as at the beginning of this scan
+  exhibit::HandSize size_;      // size at the start of this scan
   exhibit::LeadingScan leading_;
-  scene::HandScript script_;  // moves the simulated hand; revision 0: inactive
+  scene::HandScript script_;  // motion of the simulated hand; revision 0: inactive
   glm::dvec3 aim_m_{0.0};
-  double way_s_ = 0;  // time since the beginning of its path over the sample
+  double way_s_ = 0;  // time since the start of its path over the sample
 };
 
 }  // namespace afm::app

@@ -11,8 +11,8 @@ namespace afm::app {
 
 struct ViewParts;
 
-// Notices that nobody sees the sample, since no window that shows it is visible, or none gets a picture. The servo then
-// applies no force. A picture that is hidden on purpose, by key X or in a blind step, is seen.
+// Detects that nobody sees the sample, because no window that shows it is visible or gets a picture. The servo then
+// applies no force. A picture that is hidden on purpose, by key X or in a blind step, counts as seen.
 class SightControl final : public ViewControl {
  public:
   // `parts` must outlive it.
@@ -26,7 +26,7 @@ class SightControl final : public ViewControl {
   std::string cause() const;
 
   ViewParts& parts_;
-  bool shows_stage_;  // this machine's windows, or some of them
+  bool shows_stage_;  // true: sample shown in at least one of this machine's windows
   render::WindowSight sight_;
   bool logged_blind_ = false;
 };

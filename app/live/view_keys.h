@@ -28,34 +28,34 @@ struct KeyOwners {
   ViewParts& parts;
   PlaceControl* place = nullptr;
   JourneyControl* journey = nullptr;
-  LessonControl* lesson = nullptr;  // used by rows of lessons; null without a lesson
+  LessonControl* lesson = nullptr;  // receiver of keys for lessons; null without a lesson
   ScanControl* scan = nullptr;
   SoundControl* sound = nullptr;
   MapControl* map = nullptr;
-  ParticlesControl* particles = nullptr;  // used by rows of particles; null without particles
+  ParticlesControl* particles = nullptr;  // receiver of keys for particles; null without particles
 };
 
 // A key of the live window, or a run of consecutive keys with the same action and a number each.
 struct LiveKey {
   render::Key key;
-  const char* name;      // as printed in docs/manual/demonstrate.md; the wall translates it
-  exhibit::Phrase text;  // text on the list of keys; neighbours with the same text share a line; Keys: not listed
-  void (*press)(KeyOwners& owners, std::size_t number);  // 0: the run's first key; null: MouseHand's
+  const char* name;      // name as in docs/manual/demonstrate.md; the wall translates it
+  exhibit::Phrase text;  // text in the list of keys; neighbours with equal texts share a line; Keys: not listed
+  void (*press)(KeyOwners& owners, std::size_t number);  // action; 0: the run's first key; null: key of MouseHand
   std::optional<exhibit::Phrase> mouse{};                // mouse action with the same effect
   render::Key last = key;                                // last key of the run
-  bool staff = false;                                    // ignored in an unattended window
-  bool not_in_lessons = false;  // ignored in lessons, because it would change or reveal the answer
+  bool staff = false;                                    // true: ignored in an unattended window
+  bool not_in_lessons = false;  // true: ignored in lessons, because it would change or reveal the answer
   bool lessons_only = false;
   bool particles_only = false;
 
-  // The same row, for staff only.
+  // Same row, for staff only.
   constexpr LiveKey for_staff() const {
     LiveKey row = *this;
     row.staff = true;
     return row;
   }
 
-  // The same row, outside lessons only, or in lessons only.
+  // Same row, outside lessons only, or in lessons only.
   constexpr LiveKey outside_lessons() const {
     LiveKey row = *this;
     row.not_in_lessons = true;
@@ -67,7 +67,7 @@ struct LiveKey {
     return row;
   }
 
-  // The same row, with particles only.
+  // Same row, with particles only.
   constexpr LiveKey with_particles() const {
     LiveKey row = *this;
     row.particles_only = true;

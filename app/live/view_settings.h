@@ -29,13 +29,13 @@ struct ViewSettings {
   std::optional<std::size_t> first_material;       // material chosen after every start of a servo
   std::string frame_log;                           // file name; empty: no log
   std::vector<input::HeadKey> head_script;         // simulated motion of an untracked head; may be empty
-  bool unattended = false;    // staff keys locked; starts over and demonstrates itself when no visitor is there
+  bool unattended = false;    // true: staff keys locked; restarts and demonstrates itself without a visitor
   double idle_s = 60;         // seconds without input before the demonstration starts
-  std::string record_folder;  // folder for sessions; empty: none are kept
+  std::string record_folder;  // folder for sessions; empty: none are stored
   std::optional<servo::RecordedForceMap> force_map;  // file of the map, for its sessions; empty: none
-  std::optional<double> equal_force_n;               // surface over a force map that is shown first; empty: none
+  std::optional<double> equal_force_n;               // force of the surface shown first over a force map; empty: none
   LiveSoundSettings sound;
-  std::shared_ptr<servo::KeptBeat> kept;  // beat of a kiosk's window; shared because settings are copied
+  std::shared_ptr<servo::KeptBeat> kept;  // heartbeat of a kiosk's window; shared because settings are copied
 };
 
 }  // namespace afm::app

@@ -20,8 +20,8 @@ namespace afm::app {
 VisitorControl::VisitorControl(ViewParts& parts, double idle_s)
     : parts_(parts), watch_(static_cast<std::int64_t>(idle_s * 1e9)) {}
 
-// When a visitor leaves, everything returns to its initial state and the demonstration starts. When another arrives,
-// the same happens for that person's hand, before their first press acts.
+// Follows the visitors. When one leaves, everything returns to its initial state and the demonstration starts. When
+// another arrives, the same happens for that person's hand, before their first press acts.
 void VisitorControl::notice(const ViewInput& input, const ViewFrame& frame) {
   const bool pointed = std::exchange(cursor_seen_px_, input.cursor_px) != input.cursor_px;
   const bool wand = std::exchange(wand_seen_ns_, parts_.wand.used_ns()) != parts_.wand.used_ns();
@@ -55,7 +55,7 @@ void VisitorControl::demonstrate_next() {
 
 bool VisitorControl::hand_was_used() {
   if (!parts_.hand.has_own_hand()) return false;
-  constexpr double kMovedM = 5e-3;  // more than the motion of a device that hangs on its springs
+  constexpr double kMovedM = 5e-3;  // distance greater than the motion of a device that hangs on its springs
   const scene::TipState& tip = parts_.servo.link().tip();
   const bool pressed = std::exchange(presses_seen_, tip.presses) != tip.presses;
   const auto& [x, y, z] = tip.hand.position_m;

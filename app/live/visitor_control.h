@@ -12,7 +12,7 @@ namespace afm::app {
 
 struct ViewParts;
 
-// A live window without staff: restarts for every visitor, and demonstrates itself while there is none.
+// A live window without staff: restarts for every visitor, and demonstrates itself in between.
 class VisitorControl final : public ViewControl {
  public:
   // `idle_s`: seconds without input before the demonstration starts.

@@ -11,7 +11,7 @@
 
 namespace afm::app {
 
-// Processor time excludes other programs; wall time is the time that a person waits.
+// Processor time excludes other programs; wall time is the time for which a person waits.
 enum class BenchmarkClock { Processor, Wall };
 
 // One operation to measure. `run` is a Google Benchmark: it sets up, then loops over the state; only the loop is timed.

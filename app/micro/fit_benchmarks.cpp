@@ -63,7 +63,7 @@ void analysed(benchmark::State& state) {
   }
 }
 
-// The approach alone, as an analysis hands it on.
+// Fits only the approach, in the form in which an analysis passes it on.
 void fit(benchmark::State& state, bool interval) {
   const auto curve = gels(kLongBranch, 1);
   std::vector<fits::Sample> samples;
@@ -109,7 +109,7 @@ void many(benchmark::State& state, std::size_t threads) {
 }  // namespace
 
 std::vector<BenchmarkCase> fit_benchmarks() {
-  core::keep_freed_memory();  // as the command does
+  core::keep_freed_memory();  // as in the command
   const auto name = [](std::string_view text) { return std::string(text); };
   constexpr auto kMany = static_cast<double>(kCurves);
   return {{.name = name(kAnalysed), .bar_s = kOneBar_s, .run = analysed},

@@ -12,7 +12,7 @@ namespace afm::app {
 // of 2 x 500 points on one thread and on two.
 std::vector<BenchmarkCase> fit_benchmarks();
 
-// The ratios of their figures next to the goals, a line each; empty for figures of other benchmarks.
+// Ratios of these figures compared with the goals, one line each; empty for figures of other benchmarks.
 std::string fit_ratios(const std::vector<BenchmarkFigure>& figures);
 
 }  // namespace afm::app

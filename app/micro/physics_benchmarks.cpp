@@ -96,7 +96,7 @@ bool run_quietly(const std::string& program, std::vector<std::string> arguments)
   return started && waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-// 10,001 samples.
+// Computes a curve of 10,001 samples.
 void whole_curve(benchmark::State& state, const std::string& program) {
   for (auto turn : state) {
     if (!run_quietly(program, {"curve", "--material", "mica", "--from", "20nm", "--to", "-5nm", "--step", "0.005nm"})) {

@@ -12,9 +12,9 @@ namespace afm::app {
 
 // Environment of a command.
 struct CommandContext {
-  std::string assets_dir;                // holds models/, walls/ and materials.toml
-  std::string program_path;              // the running program; touchafm-servo is in the same folder
-  std::vector<std::string> arguments{};  // as typed, without the program
+  std::string assets_dir;                // folder of models/, walls/ and materials.toml
+  std::string program_path;              // path of the running program; touchafm-servo is in the same folder
+  std::vector<std::string> arguments{};  // arguments as typed, without the program
   std::string language = "en";           // language of wall and report, from the locale; --language overrides it
 };
 

@@ -34,10 +34,10 @@ std::string names_of(const char* word, const std::set<CLI::Option*>& options) {
   return text;
 }
 
-// "PIXELS from 64 to 8192", "{csv,json}"; empty for a flag.
+// Accepted values, such as "PIXELS from 64 to 8192" or "{csv,json}"; empty for a flag.
 std::string value_of(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
-  std::string value = option.get_type_name();  // the type, followed by a colon and the description of each check
+  std::string value = option.get_type_name();  // type, followed by a colon and the description of each check
   const std::size_t colon = value.find(':');
   if (colon == std::string::npos) return value;
   std::string type = value.substr(0, colon);
@@ -85,7 +85,7 @@ CommandDescription describe_command(const CLI::App& app) {
 TypedCommand typed_command(const CLI::App& program) {
   const auto typed_below = [](const CLI::App& app) -> const CLI::App* {
     for (const CLI::App* each : app.get_subcommands()) {
-      if (!each->get_name().empty()) return each;  // not a group of options
+      if (!each->get_name().empty()) return each;  // a command, not a group of options
     }
     return nullptr;
   };
@@ -127,7 +127,7 @@ bool has_check(CLI::Option& option, const char* name) {
 
 bool writes(CLI::Option& option) { return has_check(option, kWrites); }
 
-// Returns whether its value is a file, alone or behind a word and a colon.
+// True if the value is a file, alone or after a word and a colon.
 bool reads(CLI::Option& option) {
   const std::string value = value_of(option);
   const auto names = [&](const char* word) { return value.find(word) != std::string::npos; };
@@ -328,7 +328,7 @@ core::Result<std::string> CommandLine::parse(int count, const char* const* argum
     add_given_options(*app_, given);
     if (const auto checked = check_written_files(given); !checked) return tl::unexpected(checked.error());
     return "";
-  } catch (const CLI::Success& asked) {  // --help, --version
+  } catch (const CLI::Success& asked) {  // --help or --version
     std::ostringstream answer;
     app_->exit(asked, answer);
     return answer.str();

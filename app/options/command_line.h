@@ -43,16 +43,16 @@ class Option {
   Option& existing_folder();
   Option& writable_file();  // checked early, so that no result is lost after long work
 
-  // The value is a file or folder that is written; writable_file() says so, too. WrongUsage if it is a file that
+  // The value is a file or folder to be written, as implied by writable_file(). WrongUsage if it is a file that
   // another option reads.
   Option& written();
-  // As writable_file(), for a picture. WrongUsage, too, if the file is a measurement, which the picture would replace.
+  // As writable_file(), for a picture. Also WrongUsage if the file is a measurement, which the picture would replace.
   Option& picture_file();
 
-  // Leaves the option out of help, man page and completion: for our own programs.
+  // Hides the option from help, man page and completion: for our own programs.
   Option& hidden();
 
-  // For a list: one value each time the option is given.
+  // For a list: takes one value each time the option is given.
   Option& one_value_each();
 
   // Returns whether the option was given; false before parsing.
@@ -80,13 +80,13 @@ class OptionList {
   Option add_flag(const std::string& name, bool& target, const std::string& help);
   Option add_flag(const std::string& name, std::function<void()> when_given, const std::string& help);
 
-  // Options of which exactly one must be given, under a title in the help.
+  // Adds options of which exactly one must be given, under a title in the help.
   OptionList add_alternatives(const std::string& title);
 
-  // A command, of which exactly one must be given.
+  // Adds a command, of which exactly one must be given.
   OptionList add_command(const std::string& name, const std::string& help);
 
-  // Last lines of the help.
+  // Sets the last lines of the help.
   void footer(const std::string& text);
 
   // Sets the action of CommandLine::run for this command.
@@ -102,7 +102,7 @@ class OptionList {
 
 // Help of one option or positional argument.
 struct OptionDescription {
-  std::string name;   // "--model"; for a positional argument "file"
+  std::string name;   // name such as "--model"; for a positional argument "file"
   std::string value;  // accepted values as in the help; empty for a flag
   std::string help;
   std::string fallback;  // default value, or empty

@@ -17,7 +17,7 @@ namespace afm::app {
 
 namespace {
 
-// The same range as for a contact.
+// Range of spring constants, as for a contact.
 constexpr QuantityRange<physics::Stiffness> kSpringConstants{physics::Stiffness(1e-6), physics::Stiffness(1e6)};
 
 }  // namespace

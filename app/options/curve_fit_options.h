@@ -20,7 +20,7 @@ struct NamedOption {
 // Converts "70nm/V" to metres per volt. WrongUsage if the text is malformed or the value not positive.
 core::Result<double> parse_sensitivity(std::string_view text);
 
-// Converts "0.06N/m". WrongUsage if the text is malformed or out of the range of a contact's.
+// Converts "0.06N/m". WrongUsage if the text is malformed or outside the range for a contact.
 core::Result<physics::Stiffness> parse_spring_constant(std::string_view text);
 
 // Adds --sensitivity, which writes into `reading` while the parser lives. Returns it with its name.
@@ -30,7 +30,7 @@ NamedOption add_sensitivity_option(OptionList& command, curves::CurveReading& re
 // names.
 std::vector<NamedOption> add_calibration_options(OptionList& command, curves::CurveReading& reading);
 
-// The same for --fit, whose help begins with `help`, and for its sizes and limits.
+// Same for --fit, whose help begins with `help`, and for its sizes and limits.
 std::vector<NamedOption> add_shape_options(OptionList& command, curves::FitOptions& options, const std::string& help);
 
 }  // namespace afm::app

@@ -19,16 +19,16 @@ namespace afm::app {
 
 namespace {
 
-// Each step draws about 0.7 of the previous step's pixels.
+// Scales of the steps; each draws about 0.7 of the previous one's pixels.
 constexpr std::array kScales{1.0, 0.84, 0.71, 0.59, 0.5};
 constexpr std::size_t kJudgedFrames = 5;
-constexpr double kRoom = 0.85;  // share of the budget that a finer frame may be predicted to use
+constexpr double kRoom = 0.85;  // fraction of the budget that a finer frame may be predicted to use
 constexpr int kPatienceFrames = 30;
 constexpr int kMostPatienceFrames = 1920;
 constexpr double kLeastBudget_ms = 1.0, kMostBudget_ms = 1000.0;
 
-// On two cores, 16 frames per second with everything moving, where a jump can still be followed. The force is lost only
-// after 250 ms.
+// Budget for 16 frames per second with everything moving on two cores, at which a jump can still be followed. The force
+// is lost only after 250 ms.
 constexpr double kProcessorBudget_ms = 60.0;
 
 constexpr double kFourSamplesCost = 2.8;  // largest cost relative to one sample, from the measurements in the design
@@ -50,7 +50,7 @@ bool DynamicResolution::go(std::size_t step) {
   return true;
 }
 
-// The next step, or the first whose resolution could fit: a frame's time never shrinks faster than its number of
+// Next step, or the first one whose resolution could fit: a frame's time never shrinks faster than its number of
 // pixels. Goes to fewer samples only from the least resolution, and back from an attempt to the step before it.
 std::size_t DynamicResolution::coarser_step() const {
   const auto pixels = [this](std::size_t step) { return steps_[step].scale * steps_[step].scale; };
@@ -87,7 +87,7 @@ bool DynamicResolution::add(double frame_ms) {
     return go(coarser_step());
   }
   ++steady_frames_;
-  if (trying_ && steady_frames_ == patience_frames_) {  // the step has held
+  if (trying_ && steady_frames_ == patience_frames_) {  // steady since the step
     patience_frames_ = kPatienceFrames;
     trying_ = false;
   }

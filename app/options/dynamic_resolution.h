@@ -21,7 +21,7 @@ namespace afm::app {
 class OptionList;
 
 // Keeps frames within a time budget by lowering the quality: first fewer pixels, down to half of them each way, then
-// one sample a pixel. Content and geometry of the picture do not change. Steps down at once if frames take too long,
+// one sample per pixel. Content and geometry of the picture do not change. Steps down at once if frames take too long,
 // past every resolution that cannot fit; steps up only when the finer frame is predicted to fit, and waits longer after
 // each failed attempt. Judges the median of a few frames, so that a single slow one has no effect.
 class DynamicResolution {
@@ -32,8 +32,8 @@ class DynamicResolution {
   // Adds the time of the newest frame. True if the next frame has a different quality.
   bool add(double frame_ms);
 
-  // Call before there is a force, with the first frame: draws it with the least quality. Drivers compile what that
-  // needs at its first use, which would stop a busy machine's picture for seconds just when it is slow.
+  // Call before there is a force, with the first frame: draws it with the least quality. Drivers compile shaders for it
+  // at first use, which would stop a busy machine's picture for seconds just when it is slow.
   void rehearse(render::Renderer& renderer, const render::FrameState& frame) const;
 
   // Takes the time of the renderer's newest finished frame, sets the renderer's quality and logs a change.
@@ -54,25 +54,25 @@ class DynamicResolution {
   bool go(std::size_t step);
   bool over_budget() const {
     return step_ + 1 == steps_.size() && typical_ms_ > budget_ms_;
-  }  // no coarser step is left
+  }  // true if no coarser step is left
   std::size_t coarser_step() const;
   double finer_cost() const;
 
   double budget_ms_;
-  std::vector<render::FrameQuality> steps_;  // finest first
+  std::vector<render::FrameQuality> steps_;  // steps from fine to coarse
   std::size_t step_ = 0;
   std::vector<double> recent_ms_;  // times since the last change
-  int steady_frames_ = 0;          // number within the budget since the last change
-  int patience_frames_;            // number required before a finer step
-  bool trying_ = false;            // the last change was to a finer step
-  double typical_ms_ = 0;          // median of recent_ms_, once there are enough
+  int steady_frames_ = 0;          // number of frames within the budget since the last change
+  int patience_frames_;            // number of steady frames before a finer step
+  bool trying_ = false;            // true: last change to a finer step
+  double typical_ms_ = 0;          // median of recent_ms_; 0 until there are enough
 };
 
 // Adds --frame-budget; `budget_ms` stays empty without it, and is 0 for none.
 void add_frame_budget(OptionList& command, std::optional<double>& budget_ms);
 
 // Budget in ms for live pictures, 0 for none: the given one; otherwise one that keeps a picture moving if a processor
-// draws it, and none on a GPU or for a size that a person has fixed.
+// draws it, and none on a GPU or for a size fixed by a person.
 double frame_budget_ms(std::optional<double> given_ms, bool fixed_size, const render::Context& context);
 
 }  // namespace afm::app

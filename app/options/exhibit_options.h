@@ -32,7 +32,7 @@ void add_particles_option(OptionList& command, exhibit::ExhibitFiles& files);
 // Adds --force-map, --pixel, and the options for how its curves are read and fitted, which are returned.
 std::vector<NamedOption> add_force_map_options(OptionList& command, exhibit::ExhibitFiles& files);
 
-// The lever of the force map's curves instead of the file's. WrongUsage for a text that is no spring constant.
+// Sets the lever of the force map's curves, replacing the file's. WrongUsage for a text that is no spring constant.
 core::Result<void> set_map_spring_constant(const std::string& text, exhibit::ExhibitFiles& files);
 
 // Adds --scale.

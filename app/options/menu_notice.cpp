@@ -16,7 +16,7 @@ constexpr std::uint64_t kBusTimeoutUs = 1'000'000;
 constexpr const char* kService = "org.freedesktop.Notifications";
 constexpr const char* kObject = "/org/freedesktop/Notifications";
 
-// The body of a notification may hold mark-up (Desktop Notifications Specification 1.2, section 4).
+// Text without mark-up, which the body of a notification may hold (Desktop Notifications Specification 1.2, section 4).
 std::string without_markup(const std::string& text) {
   std::string escaped;
   for (const char c : text) {

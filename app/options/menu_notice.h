@@ -5,11 +5,11 @@
 
 namespace afm::app {
 
-// Set by the entry in a desktop's menu (assets/desktop/touchafm.desktop): nobody sees what is written to stderr.
+// Environment variable set by the menu entry (assets/desktop/touchafm.desktop): stderr is then invisible.
 inline constexpr const char* kFromMenu = "TOUCHAFM_FROM_MENU";
 
-// Shows why the program ends, by org.freedesktop.Notifications, if it was started from a menu; a desktop without that
-// service is noted on stderr. Waits for a second at most. Main thread, as the last thing.
+// Shows the reason for the program's end through org.freedesktop.Notifications, if it was started from a menu; notes on
+// stderr if the desktop lacks that service. Waits for a second at most. Main thread, as the last action.
 void tell_the_desktop(const std::string& message);
 
 }  // namespace afm::app

@@ -11,7 +11,7 @@
 
 namespace afm::app {
 
-// Both ends are legal, in each direction.
+// Limits of a width or height in pixels; both ends are legal.
 struct PixelRange {
   std::uint32_t least, most;
 };

@@ -22,7 +22,7 @@ struct SoundOptions {
 
 inline constexpr double kQuietestDb = -60, kLoudestDb = 0;
 
-// A number with its unit, "-12dB" or "-12 dB"; empty for any other text.
+// Volume from a number with its unit, "-12dB" or "-12 dB"; empty for any other text.
 std::optional<double> parse_decibels(std::string_view text);
 
 // Adds --volume and --mono-sound.

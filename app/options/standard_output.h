@@ -11,7 +11,7 @@ namespace afm::app {
 // Writes the whole text to stdout. The error contains the reason, such as a closed pipe.
 core::Result<void> write_stdout(std::string_view text);
 
-// The same for a report in words, safe for a terminal whatever names it repeats; its last line names the program.
+// Same for a report in words, safe for a terminal whatever names it repeats; its last line names the program.
 core::Result<void> write_report(std::string text);
 
 // Fails if anything printed before could not be written. Every command ends with this call.

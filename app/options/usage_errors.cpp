@@ -29,7 +29,7 @@ std::vector<std::string> commands_of(const CommandDescription& command) {
   return names;
 }
 
-// About words that fit nothing; nothing if there are none.
+// Message about words that fit nothing; empty if there are none.
 std::string about_extra(const TypedCommand& typed) {
   if (typed.left.empty()) return "";
   const std::vector<std::string> commands = commands_of(typed.command);
@@ -43,7 +43,7 @@ std::string about_extra(const TypedCommand& typed) {
     const std::string name = word.substr(0, word.find('='));
     std::vector<std::string> names;
     for (const OptionDescription& option : options_of(typed.command)) {
-      names.push_back(option.name.substr(option.name.rfind(',') + 1));  // the long one of "-h,--help"
+      names.push_back(option.name.substr(option.name.rfind(',') + 1));  // long form of "-h,--help"
       if (names.back() == name) return fmt::format("{} has no use for {}", typed.words, word);
     }
     return fmt::format("{} has no option {}{}", typed.words, name, suggestion(name, names));
@@ -51,7 +51,7 @@ std::string about_extra(const TypedCommand& typed) {
   return fmt::format("{} has no use for \"{}\"", typed.words, typed.left.front());
 }
 
-// Texts of CLI11 2.1 to 2.4, and what is said instead: $1 and $2 are their parts.
+// Texts of CLI11 2.1 to 2.4, and their replacements, in which $1 and $2 are their parts.
 struct Reworded {
   const char* pattern;
   const char* text;

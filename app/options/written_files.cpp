@@ -17,14 +17,14 @@ namespace afm::app {
 
 namespace {
 
-// Name of a measurement's format, by the file's first bytes; empty: none.
+// Name of a measurement's format, from the file's first bytes; empty: none.
 std::string_view measurement_in(const std::string& path) {
   if (servo::is_session_file(path)) return "a session";
   if (curves::is_image_file(path)) return "an image";
   return curves::is_curve_file(path) ? "a curve" : "";
 }
 
-// The same if only an instrument or the live window writes such files; results replace older results.
+// Same, but only for files that an instrument or the live window writes; results replace older results.
 std::string_view foreign_measurement_in(const std::string& path) {
   const std::string_view measurement = measurement_in(path);
   if (measurement == "an image" && curves::image_format(path)) return "";

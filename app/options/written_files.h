@@ -13,12 +13,12 @@ namespace afm::app {
 struct GivenOption {
   std::string name;
   std::vector<std::string> values;
-  bool reads = false;   // a value is a file that is read, alone or behind a word and a colon
-  bool writes = false;  // the last value is a file that is written
-  bool draws = false;   // picture in that file, not data
+  bool reads = false;   // true: a value is a file to read, alone or after a word and a colon
+  bool writes = false;  // true: the last value is a file to write
+  bool draws = false;   // true: the written file is a picture, not data
 };
 
-// WrongUsage if a file would be written that another option reads, or that is a measurement, which would be lost.
+// WrongUsage if a file to be written is one that another option reads, or a measurement, which would be lost.
 core::Result<void> check_written_files(std::span<const GivenOption> given);
 
 }  // namespace afm::app

@@ -62,13 +62,13 @@ class LiveSound {
   LiveSoundSettings settings_;
   const exhibit::Phrases& phrases_;
   const core::Clock& clock_;
-  std::unique_ptr<exhibit::SoundMixer> mixer_;  // too large for the stack
+  std::unique_ptr<exhibit::SoundMixer> mixer_;  // mixer of all sounds, too large for the stack
   exhibit::Narrator narrator_;
   std::unique_ptr<exhibit::SoundOutput> output_;
   std::unique_ptr<exhibit::Speaker> speaker_;
   bool muted_ = false;
   bool looked_for_voice_ = false;
-  bool asked_ = false;  // by the key Y, answered in the current frame
+  bool asked_ = false;  // true: key Y pressed, to be answered in the current frame
 };
 
 }  // namespace afm::app

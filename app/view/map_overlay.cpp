@@ -16,7 +16,7 @@ namespace afm::app {
 
 struct MapOverlay::Laid {
   exhibit::MapQuantity quantity{};
-  double release_z_m = 0;  // as in exhibit::WallState: the sample's size
+  double release_z_m = 0;  // size of the sample, as in exhibit::WallState
   exhibit::HeightRelief relief;
 };
 

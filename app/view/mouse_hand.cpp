@@ -12,7 +12,7 @@ namespace {
 constexpr double kFastestMPerS = 0.20;  // mean speed of the aim; the peak is 15/8 of it, the servo's limit 0.8
 constexpr double kWheelStepM = 0.002;
 constexpr double kLongestPathS = 0.25;
-constexpr std::int64_t kShortestPressNs = 150'000'000;  // makes a click between two frames a press
+constexpr std::int64_t kShortestPressNs = 150'000'000;  // duration that makes a click between two frames a press
 
 using Kind = render::WindowEvent::Kind;
 

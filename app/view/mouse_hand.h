@@ -22,7 +22,7 @@ class MouseHand {
   static constexpr double kLowestM = -0.030;
   static constexpr double kHighestM = 0.070;
   static constexpr double kRestM = 0.060;       // initial height of the simulated hand
-  static constexpr double kWidestM = 0.070;     // to either side: edge of a sample at the scale that fits it
+  static constexpr double kWidestM = 0.070;     // largest sideways distance: edge of a sample at the scale that fits it
   static constexpr double kOnSampleM = -0.002;  // height to which a scanning hand lowers the tip
 
   static constexpr render::Key kGripKey = render::Key::Space;
@@ -65,12 +65,12 @@ class MouseHand {
 
   glm::dvec3 normal_;
   glm::dvec3 right_;
-  // right, up along the normal, and away from the viewer over the sample
+  // axes: right, up along the normal, and away from the viewer over the sample
   glm::dvec3 wanted_m_{0.0, kRestM, 0.0};
   glm::dvec3 aim_m_{0.0, kRestM, 0.0};
   bool scanning_ = false;
   bool over_held_ = false;
-  int grips_ = 0;  // number of held ones among right button, kGripKey and kOverKey
+  int grips_ = 0;  // number of held grips among right button, kGripKey and kOverKey
   glm::dvec2 grip_px_{0.0};
   bool axes_changed_ = false;
   bool turn_on_held_ = false;

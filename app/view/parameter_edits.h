@@ -24,8 +24,8 @@ class ServoClient;
 
 namespace afm::app {
 
-// The user's parameters for every material, and the servo's response to each change. No call waits for the law of a
-// lever that taps: a thread builds it. Main thread only.
+// The user's parameters for every material, and the servo's response to each change. No call waits for the law in
+// tapping mode: a thread builds it. Main thread only.
 class ParameterEdits {
  public:
   // `loaded`: the models with which the servo was started.
@@ -33,15 +33,15 @@ class ParameterEdits {
       : loaded_(std::move(loaded)), edits_(loaded_.size()) {}
 
   // Applies the button of the panel, except Close, to the parameters and to the servo. Refuses another pixel of a force
-  // map while the tip touches, and otherwise takes the force away before it reads one. Returns false if it has logged
-  // why it changes nothing, or if the change of a lever that taps has only begun.
+  // map while the tip touches, and otherwise removes the force before it reads one. Returns false if it has logged
+  // the reason for changing nothing, or if a change in tapping mode has only begun.
   bool apply(const render::ControlTarget& target, std::size_t material, servo::ServoClient& servo);
 
   // Call once a frame: takes the parameters that have been built, and sends them to the servo. Returns the materials
   // whose change has been made or refused.
   std::vector<std::size_t> take_built(servo::ServoClient& servo);
 
-  // Call once a frame. Returns whether the force must not begin: it was off after a change of the lever that taps under
+  // Call once a frame. True if the force must not begin: it was off after a change of the tapping lever under
   // the tip, and the servo does not have the new law yet.
   bool keeps_force_off(const scene::TipState& tip);
 
@@ -54,7 +54,7 @@ class ParameterEdits {
   // Parameters of a material, created from the loaded ones on the first call.
   const curves::LiveParameters& of(std::size_t material);
 
-  // The changes of a material for the other machines of a wall; empty while it is as loaded. The second function
+  // Changes of a material for the other machines of a wall; empty while it is as loaded. The second function
   // applies such a record; false if it is invalid.
   std::optional<cluster::EditRecord> recorded(std::size_t material) const;
   bool follow(const cluster::EditRecord& edit);
@@ -65,11 +65,11 @@ class ParameterEdits {
 
   bool changed(std::size_t material) const;
 
-  // True while the law of a lever that taps is being built, here or on the machine with the hand.
+  // True while the law of a tapping lever is being built, here or on the machine with the hand.
   bool builds() const;
   void set_builds_elsewhere(bool builds) { builds_elsewhere_ = builds; }
 
-  // State of the newest change; for the panel: Held where a pixel of a force map cannot be left.
+  // State of the newest change; for the panel: Held if a pixel of a force map cannot be left.
   exhibit::ChangeState state(std::size_t material, const scene::TipState& tip) const;
   exhibit::ChangeState shown_state(std::size_t material, const scene::TipState& tip) const;
 
@@ -78,7 +78,7 @@ class ParameterEdits {
     std::optional<curves::LiveParameters> parameters;
     std::uint32_t revision = 0;  // newest edit sent to the servo; 0: none
     curves::ParameterBuild build{};
-    bool force_off = false;  // no force since some frame of the newest change
+    bool force_off = false;  // true: no force since some frame of the newest change
   };
   curves::LiveParameters& parameters(std::size_t material);
   void send(std::size_t material, servo::ServoClient& servo);

@@ -14,7 +14,7 @@ struct Pointed {
   std::optional<render::ControlTarget> control;
   bool tab = false;
   std::optional<std::size_t> swatch;
-  glm::dvec3 point_m{0.0};  // room frame
+  glm::dvec3 point_m{0.0};  // target point in the room frame
 };
 
 }  // namespace afm::app

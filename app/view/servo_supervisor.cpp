@@ -19,16 +19,16 @@ namespace afm::app {
 namespace {
 
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
-constexpr std::size_t kMostRestarts = 3;  // per minute
+constexpr std::size_t kMostRestarts = 3;  // limit per minute
 
-// Name of a person's action on these between two lifts of the tip.
+// Name of a person's action on the particles or marks between two lifts of the tip.
 std::string_view stroke_name(const scene::SharedParticles& particles, bool several) {
   if (particles.soft.hardness_pa > 0.0) return several ? "scratches" : "scratch";
   if (particles.ink.molecules_per_s > 0.0) return several ? "strokes" : "stroke";
   return several ? "pushes" : "push";
 }
 
-// Empty for events that occur many times a second: they are not logged.
+// Log text of an event; empty for events that occur many times a second.
 std::string log_text(const scene::TipEvent& event, const scene::SharedParticles& particles) {
   if (event.kind == physics::EventKind::PushTakenBack)
     return fmt::format("the last {} was taken back", stroke_name(particles, false));
@@ -155,7 +155,7 @@ void ServoSupervisor::log_state() {
   const scene::ServoState before = std::exchange(logged_state_, tip.servo_state);
   if (logged_state_ == before) return;
   if (logged_state_ == scene::ServoState::Running) core::log_line("force on");
-  if (scene::is_armed(logged_state_) || before == scene::ServoState::Fault) return;  // the fault has been logged
+  if (scene::is_armed(logged_state_) || before == scene::ServoState::Fault) return;  // fault already logged
   if (tip.fault == scene::FaultCode::ServoSilent) return core::log_line(scene::reason(tip.fault));  // even then
   const bool fault = tip.fault != scene::FaultCode::None;
   core::log_line(fault ? std::string("force off: ") + scene::reason(tip.fault) : "force off");
@@ -196,7 +196,7 @@ void ServoSupervisor::keep_part(std::int64_t now_ns) {
   recorder_->forget_records();
 }
 
-// A folder that has become full or read-only ends the recording but not the view.
+// Stops the recording, but not the view, when a folder has become full or read-only.
 void ServoSupervisor::stop_recording(const core::Error& error) {
   core::log_line(error.message + "; recording has stopped");
   folder_.reset();

@@ -31,7 +31,7 @@ class ServoSupervisor {
  public:
   using Starter = std::function<core::Result<std::unique_ptr<servo::ServoClient>>()>;
 
-  // Called after each start of a servo, with the material that was chosen at its predecessor.
+  // Called after each start of a servo, with the material that was selected at the previous servo.
   using Started = std::function<void(servo::ServoClient& servo, std::optional<std::size_t> chosen_before)>;
 
   // `record_folder`: for session files; empty: none. `audience` receives every sample and event that update() reads,
@@ -75,12 +75,12 @@ class ServoSupervisor {
 
   // Picture of the particles at level 1 and 2, once the servo's first sample has come; otherwise null.
   const servo::LivePicture* picture() const { return picture_.get(); }
-  std::optional<std::size_t> material() const;  // index of the one under the tip
+  std::optional<std::size_t> material() const;  // index of the material under the tip
 
   const exhibit::CycleHistory& cycles() const { return cycles_; }
   const exhibit::FrictionHistory& friction() const { return friction_; }
   const exhibit::JumpCues& cues() const { return cues_; }
-  // File of the map that is felt whole, for the sessions.
+  // File of the whole felt map, for the sessions.
   void set_force_map(std::optional<servo::RecordedForceMap> map);
 
   void forget_cycles() {

@@ -10,8 +10,8 @@ namespace afm::app {
 
 struct LiveSoundSettings {
   SoundOptions options;
-  bool sound = false;                            // tones and signals
-  std::optional<exhibit::SpeechProgram> speech;  // speaks the texts; empty: captions only
+  bool sound = false;                            // true: tones and signals on
+  std::optional<exhibit::SpeechProgram> speech;  // program that speaks the texts; empty: captions only
 };
 
 }  // namespace afm::app

@@ -72,7 +72,7 @@ void ViewChoice::number(std::size_t number) {
 }
 
 void ViewChoice::press(const Pointed& pointed, const input::Ray& ray) {
-  if (parts_.panels.close_keys()) return;  // the list covers all targets
+  if (parts_.panels.close_keys()) return;  // list that covers all targets
   if (guide_ != nullptr) return guide_->press(pointed, ray);
   // a swatch that the ray has only snapped to does not hide the sample
   const bool beside =
@@ -89,7 +89,7 @@ void ViewChoice::enter() {
   stop_force();
 }
 
-// The new scale takes effect once the tip is off the sample, like another material.
+// Selects the next scale. It takes effect once the tip is off the sample, like another material.
 void ViewChoice::next_scale() {
   const bool has_particles = parts_.servo.running() && scene::are_there(parts_.servo.link().model().particles);
   scale_ = scene::after(scale_, has_particles);

@@ -19,23 +19,23 @@ namespace afm::app {
 
 class ViewGuide;
 
-// A person's choices at the live window: the sample under the tip, its scale and settings, and whether there is a
+// A person's choices in the live window: the sample under the tip, its scale and settings, and the presence of a
 // force. Main thread only.
 class ViewChoice {
  public:
   struct Settings {
     scene::ScaleMode scale = scene::ScaleMode::Fit;
-    std::optional<std::size_t> first_material;  // chosen whenever a servo starts
+    std::optional<std::size_t> first_material;  // material selected whenever a servo starts
   };
 
   // `parts` must outlive the object; `materials` are those with which the servo was started.
   ViewChoice(ViewParts& parts, const std::vector<curves::SampleModel>& materials, const Settings& settings);
 
-  // The samples as the servo renders them.
+  // Samples as the servo renders them.
   const std::vector<curves::SampleModel>& felt() const { return felt_; }
 
   // Sends changed parameters that have been built, applies those that the servo uses to felt(), and keeps the force of
-  // a lever that taps away until the servo has its new law. Call once a frame.
+  // a tapping lever off until the servo has its new law. Call once a frame.
   void follow_edits(std::int64_t now_ns);
 
   // The guide takes a person's answers first; it must outlive the object.
@@ -45,11 +45,11 @@ class ViewChoice {
 
   void choose(std::size_t material);
   void choose_first(std::optional<std::size_t> chosen_before);
-  void number(std::size_t number);  // a key from 1 to 9, from 0
+  void number(std::size_t number);  // handles keys 1 to 9; `number` counts from 0
   void press(const Pointed& pointed, const input::Ray& ray);
   void enter();
 
-  // A press beside panels and swatches goes to this function first; it returns true if it has used it.
+  // Function that receives a press beside panels and swatches first; returns true if it has used it.
   using PressOnSample = std::function<bool(const input::Ray& ray)>;
   void set_press_on_sample(PressOnSample press) { press_on_sample_ = std::move(press); }
 
@@ -69,7 +69,7 @@ class ViewChoice {
   // Removes the force: the hand must lift and press Turn-On again.
   void take_force_away(std::int64_t now_ns);
 
-  // Does the same whenever there is a force. Call once a frame.
+  // Same, whenever there is a force. Call once a frame.
   void keep_force_away(std::int64_t now_ns);
 
  private:
@@ -81,7 +81,7 @@ class ViewChoice {
   scene::PushSettings settings_{};
   std::optional<std::size_t> first_material_;
   ViewGuide* guide_ = nullptr;
-  PressOnSample press_on_sample_;    // unset: none
+  PressOnSample press_on_sample_;    // unset: no such function
   std::int64_t force_taken_ns_ = 0;  // time of the newest take_force_away()
 };
 

@@ -25,23 +25,23 @@ struct ViewInput;
 struct ViewFrame {
   std::int64_t now_ns = 0;                               // beginning of the frame
   double frame_s = 0;                                    // time since the beginning of the previous frame
-  Pointed pointed{};                                     // set after update()
-  std::string caption{};                                 // text for what is heard; set after update()
-  exhibit::Relief relief = exhibit::Relief::NarrowEyes;  // advice if the depth is hard to look at
+  Pointed pointed{};                                     // pointer's target; set after update()
+  std::string caption{};                                 // text of the newest sound; set after update()
+  exhibit::Relief relief = exhibit::Relief::NarrowEyes;  // advice for a depth that strains the eyes
 };
 
 // Extent of a restart.
 enum class Restart {
-  Servo,       // another servo has been started
-  Everything,  // the wall returns to its initial state
-  Visitor      // the same for another visitor: everything that only a person can change
+  Servo,       // replaced servo
+  Everything,  // return of the wall to its initial state
+  Visitor      // same for another visitor, including everything that only a person can change
 };
 
 // A feature of the live window, with its own state. The loop calls all controls in order and does not know their types.
 // Each overrides the calls that it needs, listed in the order of a frame. Main thread only.
 class ViewControl {
  public:
-  using Beat = std::function<void()>;  // heartbeat of the frame; call it often while waiting
+  using Beat = std::function<void()>;  // heartbeat of the frame, to be called often during waits
 
   virtual ~ViewControl() = default;
 
@@ -60,10 +60,10 @@ class ViewControl {
   // Adds the control's content to the wall, or hides other content.
   virtual void add_to_moment(exhibit::Moment& /*now*/, ViewFrame& /*frame*/) {}
 
-  // The line of guidance, or empty. The first control with a line wins.
+  // Line of guidance, or empty. The first control with a line wins.
   virtual std::optional<std::string> guidance(const exhibit::Phrases& /*phrases*/) const { return std::nullopt; }
 
-  // Adds what a session keeps of the control, in addition to the moment; called while one is recorded.
+  // Adds the control's state for the session, in addition to the moment; called while one is recorded.
   virtual void add_to_session(servo::WallFrame& /*shown*/) const {}
 
   // Changes the picture after the panels have been added.

@@ -28,16 +28,16 @@ class ViewControls {
   auto begin() const { return controls_.begin(); }
   auto end() const { return controls_.end(); }
 
-  // Call after a start of a servo; `chosen_before` is the material that was chosen at its predecessor.
+  // Call after a start of a servo; `chosen_before` is the material that was selected at the previous servo.
   void servo_started(servo::ServoClient& servo, std::optional<std::size_t> chosen_before);
 
   // Returns everything to its initial state, and restarts the servo if it has ended.
   void begin_again();
 
-  // The same for another visitor.
+  // Same for another visitor.
   void begin_for_visitor();
 
-  // The line above the wall: from the first control that has one, otherwise the next step of the procedure.
+  // Line above the wall: from the first control that has one, otherwise the next step of the procedure.
   std::string guidance(const exhibit::Phrases& phrases) const;
 
  private:

@@ -14,16 +14,16 @@ class ViewGuide {
  public:
   virtual ~ViewGuide() = default;
 
-  // A key from 1 to 9, as a number from 0. Returns false if the key chooses a sample as usual.
+  // Handles a key from 1 to 9, as a number from 0. Returns false if the key chooses a sample as usual.
   virtual bool number(std::size_t number) = 0;
 
-  // Keys + and -.
+  // Handles the keys + (1) and - (-1).
   virtual void step(int steps) = 0;
 
-  // Key Enter, which also removes the force unless the guide only waits for it.
+  // Handles Enter, which also removes the force unless the guide only waits for it.
   virtual void enter() = 0;
 
-  // Press of a pointing device.
+  // Handles a press of a pointing device.
   virtual void press(const Pointed& pointed, const input::Ray& ray) = 0;
 
   // Speech for this line of guidance.

@@ -25,7 +25,7 @@ ViewHand::ViewHand(const exhibit::Stage& stage, ServoSupervisor& servo, const Se
       mouse_(hand_over(stage.wall_scene)),
       person_(stage.wall_scene.places().wand_grip_m(), stage.wall_scene.sample_normal(), input::HandPath{}) {}
 
-// Mouse and simulated person cannot move a real device.
+// Source of the hand's motion; mouse and simulated person cannot move a real device.
 HandSource ViewHand::source() const {
   if (has_own_hand()) return HandSource::Device;
   return demonstrates_ ? HandSource::Simulated : settings_.source;

@@ -26,8 +26,8 @@ class ServoSupervisor;
 class ViewHand {
  public:
   struct Settings {
-    HandSource source = HandSource::Mouse;                         // ignored if the device is moved by a real hand
-    exhibit::HandControls device = exhibit::HandControls::Device;  // names of its controls
+    HandSource source = HandSource::Mouse;                         // mover of a simulated hand; unused for a real one
+    exhibit::HandControls device = exhibit::HandControls::Device;  // names of the device's controls
   };
 
   // Stage and servo must outlive the object.
@@ -35,16 +35,16 @@ class ViewHand {
 
   // Current mover of the hand.
   HandSource source() const;
-  bool has_own_hand() const;  // the servo's device is moved by a real hand
+  bool has_own_hand() const;  // true if the servo's device is moved by a real hand
 
   // Names of the controls that the person uses.
   exhibit::Controls controls(exhibit::Pointer pointer) const;
 
-  // While there is no visitor, the simulated person moves a simulated hand and demonstrates each sample in turn.
+  // Lets the simulated person move a simulated hand and demonstrate each sample in turn, while there is no visitor.
   void demonstrate(bool on) { demonstrates_ = on; }
 
   MouseHand& mouse() { return mouse_; }
-  void renew_mouse();  // at rest, after a start of another servo
+  void renew_mouse();  // puts the mouse hand at rest, after the start of another servo
 
   const input::SimulatedPerson& person() const { return person_; }
 

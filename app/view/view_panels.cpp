@@ -85,7 +85,7 @@ void log_scan(const exhibit::LiveScan& scan) {
   core::log_line(line);
 }
 
-// Adds what is felt of a whole map below the tip, and the place in its picture.
+// Adds the felt quantities of a whole map below the tip, and the place in its picture.
 void add_map(const curves::SampleModel& model, const scene::TipState& tip, const exhibit::Phrases& phrases,
              render::ControlPanel& panel) {
   if (!model.felt_map) return;
@@ -265,7 +265,7 @@ void ViewPanels::take_built(servo::ServoClient& servo) {
   for (const std::size_t material : edits_.take_built(servo)) log_change(edits_.of(material));
 }
 
-// The tab that opens the parameters, and the curve computed from them.
+// Adds the tab that opens the parameters, and the curve computed from them.
 void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointed, std::size_t material) {
   const curves::LiveParameters& parameters = edits_.of(material);
   const bool open = right_ == RightPanel::Parameters;
@@ -276,7 +276,7 @@ void ViewPanels::add_parameters(render::FrameState& frame, const Pointed& pointe
          .highlighted = pointed.tab,
          .placement = wall_scene_.places().parameter_tab()});
   }
-  if (parameters.model().felt_map) return;  // the curve changes from place to place
+  if (parameters.model().felt_map) return;  // no single curve, since it changes from place to place
   render::ForcePanel& plot = frame.panels.force.content;
   if (open || parameters.changed()) return exhibit::add_prediction(parameters, phrases(), plot);
   exhibit::add_forecast(parameters, phrases(), plot);
@@ -287,7 +287,7 @@ render::PanelPlacement ViewPanels::right_place() const {
   return places.far() ? places.far()->right : places.parameters();
 }
 
-// Replaces the panel with the sample's data, or that of the particles, where there is no room beyond it.
+// Shows the panel instead of the sample's or the particles' data if there is no room beyond them.
 template <class Content>
 void ViewPanels::show_right(render::FramePanels& panels, render::PanelSlot<Content>& slot, Content content) const {
   if (!wall_scene_.places().far()) panels.data.placement = panels.particles.placement = render::kNoPlacement;

@@ -54,12 +54,12 @@ class ViewPanels {
   void toggle_parameters() { toggle(RightPanel::Parameters); }
   // Returns whether the panel is now visible.
   bool toggle_friction_loop() { return toggle(RightPanel::FrictionLoop); }
-  // The sources of the numbers, and the reasons for them, below each; a line of the log says whether they are shown.
+  // Toggles the sources of the numbers, and the reasons for them, below each; logs whether they are shown.
   void toggle_sources();
-  // Replaces the parameters by the settings of a scan; null: does not. The scan must outlive the object.
+  // Replaces the parameters by the settings of a scan; null: restores them. The scan must outlive the object.
   void set_scan(exhibit::LiveScan* scan) { scan_ = scan; }
 
-  // Name of the graphics device, a note of the parameters; empty, as at first: none.
+  // Sets the name of the graphics device, for a note of the parameters; initially empty: no note.
   void set_drawn_by(std::string device) { drawn_by_ = std::move(device); }
 
   // Friction history for the loop's panel; must outlive the object.
@@ -70,11 +70,11 @@ class ViewPanels {
   void mark_next(std::size_t material);
   void step_marked(int steps, std::size_t material, servo::ServoClient* servo);
 
-  // The next quantity of the force map in its picture; a line of the log says why not.
+  // Shows the next quantity of the force map in its picture; logs the reason if there is none.
   void next_map_picture();
-  // The picture of a pixel's map with the pixel marked, and what it shows.
+  // Picture of a pixel's map, with the pixel marked and the quantity shown.
   const render::MapPicture& picture_of(const curves::MapCurve& pixel);
-  // Shows a quantity in it, as in a session.
+  // Shows a quantity in that picture, as recorded in a session.
   void show_map_quantity(const curves::MapCurve& pixel, exhibit::MapQuantity quantity);
   exhibit::MapQuantity map_quantity() const { return quantity_; }
 
@@ -101,7 +101,7 @@ class ViewPanels {
 
   ParameterEdits& edits() { return edits_; }
 
-  // The state of the panels for the other machines of a wall, and its counterpart there. `pointed` and `hand` as in
+  // State of the panels for the other machines of a wall, and its counterpart there. `pointed` and `hand` as in
   // add_to().
   cluster::ShownPanels told(const Pointed& pointed, HandSource hand) const;
   struct Told {
@@ -111,7 +111,7 @@ class ViewPanels {
   Told follow(const cluster::ShownPanels& panels);
 
   // Adds a short note below the left panel, unless the panels are hidden: the caption of the sound; without a caption,
-  // how to leave the current view and, until F1 was used, how to list the keys.
+  // a hint on how to leave the current view and, until F1 was used, how to list the keys.
   void add_note(render::FrameState& frame, exhibit::Centerpiece centerpiece, const std::string& caption) const;
 
   // Adds the current panels to a frame: the parameters or the tab that opens them, the curve computed from changed
@@ -125,7 +125,7 @@ class ViewPanels {
     right_ = right_ == panel ? RightPanel::Data : panel;
     return right_ == panel;
   }
-  // Nothing but the banner, and perhaps the list of keys, is shown.
+  // True if only the banner, and perhaps the list of keys, is shown.
   bool covered() const { return hidden_ || keys_shown_; }
   const exhibit::Phrases& phrases() const;
   render::ControlPanel control_panel(std::size_t material, const std::string& title, exhibit::ChangeState state);
@@ -147,11 +147,11 @@ class ViewPanels {
   const exhibit::FrictionHistory* friction_ = nullptr;
   std::shared_ptr<exhibit::SwingDial> dial_;  // never null
   std::string drawn_by_;
-  std::shared_ptr<const curves::CurveMap> pictured_;  // map of the picture; null: none yet
-  exhibit::MapQuantity quantity_{};                   // its contents
+  std::shared_ptr<const curves::CurveMap> pictured_;  // map in picture_; null: none yet
+  exhibit::MapQuantity quantity_{};                   // quantity in picture_
   render::MapPicture picture_;
   std::size_t marked_ = 0;
-  bool marking_ = false;  // a key has marked a row
+  bool marking_ = false;  // true: row marked by a key
   bool hidden_ = false;
   bool keys_shown_ = false;
   bool unattended_ = false;

@@ -42,7 +42,7 @@ struct ViewParts {
   ViewTurn turn{};
 };
 
-// The heartbeat of one frame. Also reports to the servo whether anybody sees the picture, if that is known.
+// Heartbeat of one frame. Also reports to the servo whether anybody sees the picture, if that is known.
 std::function<void()> heartbeat_of(ViewParts& parts);
 
 }  // namespace afm::app

@@ -75,7 +75,7 @@ Pointed ViewPointer::now(std::size_t window, const glm::dvec2& cursor_px) {
 
 std::optional<input::WandState> ViewPointer::drawn(const Pointed& pointed, std::int64_t now_ns) const {
   if (kind() == exhibit::Pointer::Wand) return view_wand_.state();
-  if (dragging_) return std::nullopt;  // nothing to point at, and the stick would cross lever and sample
+  if (dragging_) return std::nullopt;  // nothing to point at; the stick would cross lever and sample
   return mouse_.towards(pointed.point_m, now_ns);
 }
 

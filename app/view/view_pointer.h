@@ -47,7 +47,7 @@ class ViewPointer {
 
   input::Ray ray(std::size_t window, const glm::dvec2& cursor_px) const;
 
-  // The wand to draw; the mouse has one too, but not while it drags the hand.
+  // Wand to draw; the mouse has one too, but not while it drags the hand.
   std::optional<input::WandState> drawn(const Pointed& pointed, std::int64_t now_ns) const;
 
   // Hand travel per pixel that keeps the tip under the cursor.

@@ -15,7 +15,7 @@ class LiveScan;
 
 namespace afm::app {
 
-// The scan on the wall; null `scan`: none.
+// Scan on the wall; null `scan`: none.
 struct ShownScan {
   const exhibit::LiveScan* scan = nullptr;
   std::size_t material = 0;
@@ -24,12 +24,12 @@ struct ShownScan {
 
 // State that controls share with the loop and with each other.
 struct ViewTurn {
-  bool leaving = false;                             // the window closes after this frame
-  std::optional<core::Error> failure;               // the reason, if it is one; the program's exit code follows
-  bool draws_unseen = false;                        // frames are drawn even while all windows are hidden
-  bool paced = false;                               // the frame rate is limited elsewhere, so the loop does not wait
-  bool blank = false;                               // picture hidden, for users who rely on sound and touch
-  bool dark = false;                                // the same, until a task that is done without it ends
+  bool leaving = false;                             // true: window to be closed after this frame
+  std::optional<core::Error> failure;               // failure that closes the window; sets the exit code
+  bool draws_unseen = false;                        // true: frames drawn even while all windows are hidden
+  bool paced = false;                               // true: frame rate limited elsewhere, so the loop does not wait
+  bool blank = false;                               // true: picture hidden, for users who rely on sound and touch
+  bool dark = false;                                // true: picture hidden until a blind task ends
   std::function<bool(std::int64_t now_ns)> unseen;  // true while nobody sees the picture; unset: unknown
   std::function<std::int64_t(std::int64_t now_ns)> seen_elsewhere_ns;  // newest picture of the sample on other machines
   exhibit::Hint hint = exhibit::Hint::ChooseSample;                    // next step of the procedure

@@ -21,7 +21,7 @@ constexpr std::int64_t kSimulatedStepNs = 5'000'000'000;  // time on each swatch
 constexpr double kSimulatedAimS = 1.0;
 constexpr double kSimulatedPressS = 2.0;  // long enough to be seen in the slowest frame
 constexpr double kLongestFrameS = 0.1;
-constexpr double kTurnedRad = 0.02;  // more than the noise of a wand at rest on a table
+constexpr double kTurnedRad = 0.02;  // rotation greater than the noise of a wand at rest on a table
 
 core::Result<void> parse_place(std::string_view option, std::string_view text, input::DtrackSettings& tracker) {
   const std::size_t colon = text.rfind(':');

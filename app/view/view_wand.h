@@ -32,11 +32,11 @@ namespace afm::app {
 struct WandChoice {
   enum class Source { Auto, Hid, Dtrack, Simulated, Mouse };
   Source source = Source::Auto;
-  std::string hid_name{};                   // node, numbers or a part of the name of the wand; empty: any
+  std::string hid_name{};                   // node, numbers or part of the name of the wand; empty: any
   input::WandFile file;                     // mapping, hand and tracker of the wand file
-  bool has_tracker_file = false;            // the file gives the tracker's frame in the room
+  bool has_tracker_file = false;            // true: tracker's frame in the room given by the file
   std::optional<std::uint32_t> head_body;   // number of the tracker's body
-  std::vector<input::HeadKey> head_script;  // moves a simulated head instead of a tracked one; may be empty
+  std::vector<input::HeadKey> head_script;  // motion of a simulated head, used without a tracked one; may be empty
 };
 
 core::Result<WandChoice> parse_wand_choice(const WandOptions& options);
@@ -53,10 +53,10 @@ class ViewWand {
   // Call once a frame. `eye_m` is the point between the eyes, room frame.
   void update(std::int64_t now_ns, const scene::TipState& tip, const glm::dvec3& eye_m);
 
-  // Uses a headset's controller as the wand; empty: does not.
+  // Uses a headset's controller as the wand; empty: no controller.
   void hold(const std::optional<input::WandState>& controller) { controller_ = controller; }
 
-  // Returns whether a wand points; used_ns() is the time of its last motion or press. Wand and mouse take turns.
+  // True if a wand points; used_ns() is the time of its last motion or press. Wand and mouse take turns.
   bool points() const { return wand_.connected && wand_.orientation_valid; }
   std::int64_t used_ns() const { return used_ns_; }
   const input::WandState& state() const { return wand_; }
@@ -64,12 +64,12 @@ class ViewWand {
   // Target that the ray has snapped to, and the buttons pressed since the previous frame.
   std::optional<std::size_t> hovered() const { return pointing_.hovered; }
   bool select_pressed() const { return select_pressed_; }
-  bool stop_pressed() const { return stop_pressed_; }  // since the previous frame
+  bool stop_pressed() const { return stop_pressed_; }  // true: pressed since the previous frame
 
   glm::dmat4 navigation() const { return navigation_.room_from_scene(); }
   void home() { navigation_.home(); }
 
-  // The tracked head in the room and the time of its data; empty without a tracker or before its first data.
+  // Tracked head in the room and the time of its data; empty without a tracker or before its first data.
   struct Head {
     scene::HeadPose pose;
     std::int64_t time_ns = 0;
@@ -108,7 +108,7 @@ class ViewWand {
   const input::DtrackSource* dtrack_ = nullptr;  // owned by one of the threads below
   std::optional<input::TrackerReport> tracker_report_;
   std::unique_ptr<input::WandThread> wand_thread_;
-  std::unique_ptr<input::WandThread> head_thread_;  // tracker used only for the head
+  std::unique_ptr<input::WandThread> head_thread_;  // thread of a tracker used only for the head
   std::optional<input::SimulatedWand> simulated_;
   std::size_t simulated_target_ = 0;
   std::int64_t simulated_next_ns_ = 0;
