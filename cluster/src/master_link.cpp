@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::uint64_t kFramesOfCount = 16;
 constexpr int kIdleMs = 100;                 // interval at which the thread checks for its end
-constexpr std::size_t kRecordsRing = 16384;  // 16 s of the servo
-constexpr std::size_t kPiecesRing = 2048;    // pieces of a history
+constexpr std::size_t kRecordsRing = 16384;  // 16 s of the servo's records
+constexpr std::size_t kPiecesRing = 2048;    // number of pieces of a history
 constexpr std::size_t kPiecesAtOnce = 32;    // limit before other messages get their turn
 constexpr std::size_t kBatchesAtOnce = 64;
 
@@ -46,7 +46,7 @@ struct MasterLink::Parts {
 
   // Another master, as its frames show it.
   struct OtherMaster {
-    std::uint64_t session = 0;  // 0: none
+    std::uint64_t session = 0;  // session of the other master; 0: none
     std::int64_t first_ns = 0, newest_ns = 0;
     std::uint64_t frames = 0;
 
@@ -89,7 +89,7 @@ struct MasterLink::Parts {
 
   // frame loop only
   std::uint64_t recorded = 0, documents = 0;
-  std::vector<DocumentPiece> pieces;  // pieces of a history that have found no room yet
+  std::vector<DocumentPiece> pieces;  // pieces of a history not yet queued
   std::size_t next_piece = 0;
 
   // thread only
@@ -118,7 +118,7 @@ void MasterLink::Parts::run(const std::stop_token& stop) {
   }
 }
 
-// The nodes have followed the newer wall, and come back to this one when it is described again.
+// Watches a rival. The nodes have followed the newer wall, and come back to this one when it is described again.
 void MasterLink::Parts::watch_rival() {
   if (other.session == 0) return;
   if (clock.now_ns() - other.newest_ns > kRivalGoneNs) {

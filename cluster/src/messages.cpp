@@ -13,7 +13,7 @@ namespace afm::cluster {
 
 namespace {
 
-constexpr double kLargestSent = 1e9;     // same limit as in the shared scene
+constexpr double kLargestSent = 1e9;     // limit as in the shared scene
 constexpr double kUnitTolerance = 1e-3;  // deviation of an orientation's length from 1
 constexpr double kLargestSwingM = 1e-3;
 constexpr std::int32_t kFarthestStep = 8192;  // steps between an edited and the loaded value: the side of a map

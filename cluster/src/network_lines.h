@@ -13,9 +13,9 @@ namespace afm::cluster {
 class NetworkLines {
  public:
   static constexpr std::int64_t kPauseNs = 60'000'000'000;
-  static constexpr std::size_t kLongest = 200;  // bytes of a line
+  static constexpr std::size_t kLongest = 200;  // bytes per line
 
-  // The line to log for a message of DDS, or none within kPauseNs of the previous one. A line counts the messages left
+  // Line to log for a message of DDS, or none within kPauseNs of the previous one. A line counts the messages left
   // out before it.
   std::optional<std::string> line(std::string_view message, std::int64_t now_ns);
 

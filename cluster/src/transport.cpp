@@ -34,7 +34,7 @@ struct TopicRow {
   const char* name;
   ClusterRole writer;
   Keeps keeps;
-  int depth;  // newest values kept per key; no writer waits for a slow reader
+  int depth;  // number of newest values kept per key; no writer waits for a slow reader
 };
 
 constexpr std::array<TopicRow, Transport::kTopics> kTopicRows{
@@ -68,13 +68,13 @@ std::unique_ptr<dds_qos_t, QosDelete> qos_of(const TopicRow& row) {
   return qos;
 }
 
-// DDS writes to stderr by itself, whatever its verbosity, a line for each malformed packet.
+// Log function for DDS, which would write a line to stderr for each malformed packet, whatever its verbosity.
 void log_of_dds(void* lines, const dds_log_data_t* said) {
   const std::int64_t now_ns = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   if (const auto line = static_cast<NetworkLines*>(lines)->line(said->message, now_ns)) core::log_line(*line);
 }
 
-// One for the process, as DDS's log is. Never destroyed: DDS's threads may outlive main's statics.
+// Installs that function, once for the process. Never destroyed: DDS's threads may outlive main's statics.
 void take_log_of_dds() {
   static auto* const lines = new NetworkLines;
   dds_set_log_sink(log_of_dds, lines);

@@ -49,13 +49,13 @@ class Transport {
   Transport& operator=(const Transport&) = delete;
   ~Transport();
 
-  // Makes the calling thread the only one that may write and take; calls from another abort the program.
+  // Makes the calling thread the only one that may write and take; calls from another thread abort the program.
   void belong_to_this_thread() { owner_ = std::this_thread::get_id(); }
 
   // Writes to a topic of this role: Ready for a node, all others for the master. False: DDS took too long.
   bool write(Topic topic, std::uint32_t key, std::span<const std::byte> datagram);
 
-  // Bytes sent again because a reader had lost them.
+  // Number of bytes sent again because a reader had lost them.
   std::uint64_t resent_bytes() const;
 
   // Passes on everything that has arrived since the last call, in order.

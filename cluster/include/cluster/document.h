@@ -14,7 +14,7 @@ namespace afm::cluster {
 // Pieces of a document; `header.number` identifies it within the session.
 std::vector<DocumentPiece> pieces_of(std::span<const std::byte> document, const ClusterHeader& header);
 
-// Reassembles documents. Pieces of an earlier document of the session, or pieces without room, are ignored; those of a
+// Reassembles documents. Ignores pieces of an earlier document of the session, and pieces without room; pieces of a
 // later document or of another session replace it.
 class DocumentReader {
  public:

@@ -16,7 +16,7 @@
 // Inputs of a frame, from which every machine of a wall builds the same frame.
 namespace afm::cluster {
 
-// Part of scene::TipState that the wall shows.
+// Part of scene::TipState shown on the wall.
 struct ShownTip {
   std::int64_t time_ns = 0;
   scene::Tip tip{};
@@ -53,11 +53,11 @@ static_assert(scene::all_fields_described<ShownTip>());
 struct ShownPanels {
   static constexpr std::uint32_t kKeys = 1, kHidden = 2, kKeysKnown = 4, kMarking = 8, kUnattended = 16, kTab = 32,
                                  kControl = 64, kBuilding = 128, kAllFlags = 255;
-  static constexpr std::uint32_t kMostRows = 64, kMostTargets = 8192U * 8192U;  // those of a map's pixels
+  static constexpr std::uint32_t kMostRows = 64, kMostTargets = 8192U * 8192U;  // `kMostTargets`: pixels of a map
 
   std::uint32_t flags = 0;
-  std::uint32_t right = 0;   // panel in the place of the sample's data, below kMostRight
-  std::uint32_t marked = 0;  // row
+  std::uint32_t right = 0;   // panel that replaces the sample's data, below kMostRight
+  std::uint32_t marked = 0;  // index of the marked row
   std::uint32_t hand = 0;    // hand whose keys are listed, below kMostHands
   std::uint32_t control_kind = 0;
   std::uint32_t control_index = 0;
@@ -84,9 +84,9 @@ struct ShownView {
   double ipd_m = 0.063;        // eye distance of the viewer
   double drawn_ipd_m = 0.063;  // eye distance drawn; smaller for comfort
   std::array<double, 2> depth_range_m{};
-  std::array<double, 2> nearest{};  // scene::Disparity
+  std::array<double, 2> nearest{};  // fields of scene::Disparity
   std::array<double, 2> farthest{};
-  std::int32_t mode = -1;  // index into scene::kStereoModes; -1: each output's own
+  std::int32_t mode = -1;  // index into scene::kStereoModes; -1: each output's own mode
   std::uint32_t flags = 0;
   std::uint32_t relief = 0;
   std::uint32_t padding = 0;
@@ -109,7 +109,7 @@ static_assert(scene::all_fields_described<ShownView>());
 
 // Other fields of exhibit::Moment.
 struct ShownMoment {
-  static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // kNoCenterpiece is used by films only
+  static constexpr std::uint32_t kMostCenterpieces = 4, kNoCenterpiece = 1;  // kNoCenterpiece: used by films only
   static constexpr double kLongestCueS = 1.5;
   static constexpr std::uint32_t kRetracting = 1, kWand = 2, kWandOriented = 4, kWandPlaced = 8, kWandConnected = 16,
                                  kCue = 32, kBlank = 64, kScan = 128, kTruth = 256, kStopped = 512, kByWand = 1024,
@@ -125,7 +125,7 @@ struct ShownMoment {
   std::int32_t hovered = -1;
   std::uint32_t wand_buttons = 0;
   std::uint32_t flags = 0;
-  std::uint32_t scan_frame = 0;  // exhibit::ScanProgress
+  std::uint32_t scan_frame = 0;  // frame and pixel of exhibit::ScanProgress
   std::uint32_t scan_pixel = 0;
   float cue_force_n = 0;
 };
@@ -154,7 +154,7 @@ struct ShownTexts {
   static constexpr std::size_t kBytes = 720;
   std::array<char, kBytes> bytes{};
 
-  std::vector<std::string> list() const;  // without empty ones at the end
+  std::vector<std::string> list() const;  // texts without the empty ones at the end
   void set(std::span<const std::string> texts);
 };
 

@@ -40,7 +40,7 @@ class MasterLink {
   void send_history(std::span<const std::byte> history);
   bool sending_history() const;  // true while the last history is being sent
 
-  // A node's next answer and its time of arrival; nothing if there is none.
+  // Next answer of a node and its time of arrival; empty if there is none.
   struct Answer {
     ReadyMessage ready;
     std::int64_t came_ns = 0;
@@ -55,9 +55,9 @@ class MasterLink {
   enum class Rival { None, Later, Earlier };
   Rival rival() const;
 
-  std::uint64_t refused() const;       // invalid datagrams
-  std::uint64_t lost() const;          // records and writes without room
-  std::uint64_t resent_bytes() const;  // sent again because a node had lost them; updated every sixteenth frame
+  std::uint64_t refused() const;       // number of invalid datagrams
+  std::uint64_t lost() const;          // number of records and writes without room
+  std::uint64_t resent_bytes() const;  // bytes sent again because a node had lost them; updated every sixteenth frame
 
  private:
   struct Parts;

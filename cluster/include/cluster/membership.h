@@ -24,14 +24,14 @@ class Membership {
   struct Node {
     std::string name;
     bool awaited = false;
-    bool ready = false;  // current frame drawn
-    bool heard = false;  // at least one answer received
+    bool ready = false;  // true: current frame drawn
+    bool heard = false;  // true: at least one answer received
     NodeState state = NodeState::Loading;
-    int missed = 0;                  // in a row
-    int in_time = 0;                 // in a row, while not awaited
-    std::uint64_t last_ready = 0;    // newest frame it has drawn
-    std::uint64_t timeouts = 0;      // frames shown without it although it was awaited
-    std::uint64_t other_frames = 0;  // frames it built differently from the master
+    int missed = 0;                  // number of successive frames missed
+    int in_time = 0;                 // number of successive frames in time, while not awaited
+    std::uint64_t last_ready = 0;    // newest frame drawn by the node
+    std::uint64_t timeouts = 0;      // number of frames shown without the node although it was awaited
+    std::uint64_t other_frames = 0;  // number of frames that the node built differently from the master
     ReadyMessage newest{};
   };
 
@@ -40,7 +40,7 @@ class Membership {
   // Begins the next frame, with its number, the digest of the master's frame, and the time at which drawing starts.
   void begin(std::uint64_t number, std::uint64_t digest, std::int64_t now_ns);
 
-  // Starts the patience: the master has drawn the frame.
+  // Starts the patience, since the master has drawn the frame.
   void drawn(std::int64_t now_ns);
 
   // Handles an answer of this wall that arrived at `came_ns`; answers from unknown nodes are ignored.
@@ -59,7 +59,7 @@ class Membership {
   struct Sent {
     std::uint64_t number = 0, digest = 0;
     std::int64_t begun_ns = 0;
-    std::int64_t drawn_ns = 0;  // 0: not yet
+    std::int64_t drawn_ns = 0;  // time at which the master had drawn it; 0: not yet
 
     std::int64_t patience_ns(std::int64_t least_ns) const;
   };

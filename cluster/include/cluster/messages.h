@@ -50,17 +50,17 @@ enum class NodeState : std::uint32_t { Loading = 0, Drawing = 1, OtherBuild = 2,
 struct ReadyMessage {
   ClusterHeader header{};
   NodeState state = NodeState::Loading;
-  std::uint32_t wants_history = 0;  // 1: earlier records, or some of them, are missing
+  std::uint32_t wants_history = 0;  // 1: some earlier records are missing
   std::uint64_t digest = 0;         // digest of the frame as built, or of the scene or the build if those differ
-  std::int64_t frame_sent_ns = 0;   // copied from FrameMessage, master's clock
-  std::int64_t frame_came_ns = 0;   // node's clock
-  std::int64_t ready_sent_ns = 0;   // node's clock
-  std::int64_t swapped_ns = 0;      // node's clock: display of the previous frame
-  std::uint64_t lost_records = 0;   // gaps in the journal so far
+  std::int64_t frame_sent_ns = 0;   // copy from FrameMessage, master's clock
+  std::int64_t frame_came_ns = 0;   // arrival of the frame, node's clock
+  std::int64_t ready_sent_ns = 0;   // sending of this answer, node's clock
+  std::int64_t swapped_ns = 0;      // display of the previous frame, node's clock
+  std::uint64_t lost_records = 0;   // number of gaps in the journal so far
   std::uint32_t draw_us = 0;
-  std::uint32_t late_swaps = 0;  // frames shown although no SwapMessage arrived
-  std::uint32_t stops = 0;       // presses of Stop so far
-  std::uint32_t unseen = 0;      // 1: nobody sees this node's picture
+  std::uint32_t late_swaps = 0;  // number of frames shown although no SwapMessage arrived
+  std::uint32_t stops = 0;       // number of presses of Stop so far
+  std::uint32_t unseen = 0;      // 1: picture of this node visible to nobody
 
   bool operator==(const ReadyMessage&) const = default;
 };
@@ -118,14 +118,14 @@ static_assert(scene::all_fields_described<EditRecord>());
 // Start of a scan on the wall, or a change of its settings: exhibit::ScanChange, with the hand's part of it.
 struct ScanRecord {
   std::uint32_t material = 0;
-  std::uint32_t frame = 0;  // first pixel
+  std::uint32_t frame = 0;  // frame and pixel from which it takes effect
   std::uint32_t pixel = 0;
-  std::uint32_t has_hand = 0;  // 1: a HandPart follows
+  std::uint32_t has_hand = 0;  // 1: the following fields describe the HandPart
   std::uint32_t paints = 0;
   std::uint32_t feedback = 0;
   double side_m = 0;
   std::uint64_t first_tick = 0;
-  std::array<double, 9> choice{};  // in the order of exhibit::ScanChoice
+  std::array<double, 9> choice{};  // values in the order of exhibit::ScanChoice
 
   bool operator==(const ScanRecord&) const = default;
 };
@@ -144,10 +144,10 @@ constexpr void for_each_field(Visit&& visit, Record&... scan) {
 }
 static_assert(scene::all_fields_described<ScanRecord>());
 
-// Pose of a particle, or how the picture knows it, that has changed.
+// Changed pose of a particle, or changed source of its place in the picture.
 struct PoseRecord {
   std::uint32_t particle = 0;
-  std::uint32_t known = 0;  // servo::Known
+  std::uint32_t known = 0;  // value of servo::Known
   scene::ParticlePose pose{};
 
   bool operator==(const PoseRecord&) const = default;
@@ -161,24 +161,24 @@ constexpr void for_each_field(Visit&& visit, Record&... record) {
 }
 static_assert(scene::all_fields_described<PoseRecord>());
 
-// Picture of the particles at level 1 and 2: servo::PictureNow without what PoseRecord has, and the load of a look.
+// Picture of the particles at levels 1 and 2: servo::PictureNow without the fields of PoseRecord, and a look's load.
 struct PictureRecord {
   static constexpr std::uint32_t kMostKnown = 2;  // largest servo::Known
 
-  std::uint32_t level = 0;  // 0: there is none, and all else is ignored
+  std::uint32_t level = 0;  // 0: no picture, and all other fields are ignored
   std::uint32_t particle = 0;
   std::uint32_t all_measured = 1;
   std::uint32_t looks = 0;
   std::uint32_t newest_particle = 0;
   std::uint32_t newest_lines = 0;
-  std::uint32_t newest_found = 0;  // 1: newest_off_m is known
-  std::uint32_t looking = 0;       // 1: look_share is that of the current look
+  std::uint32_t newest_found = 0;  // 1: newest_off_m is valid
+  std::uint32_t looking = 0;       // 1: look_share describes the current look
   double look_share = 0;
   double age_s = 0;
   double doubt_m = 0;
   double newest_off_m = 0;
   double newest_swept_above_n = 0;
-  double look_load_n = 0;  // with which the next look scans
+  double look_load_n = 0;  // load of the next look
 
   bool operator==(const PictureRecord&) const = default;
 };
@@ -202,7 +202,7 @@ constexpr void for_each_field(Visit&& visit, Record&... record) {
 }
 static_assert(scene::all_fields_described<PictureRecord>());
 
-// Row of a MarkTile that has changed.
+// Changed row of a MarkTile.
 struct MarkRecord {
   std::uint32_t tile = 0;
   std::uint32_t row = 0;
@@ -272,7 +272,7 @@ class JournalRecord {
   bool valid() const;
 
  private:
-  // A sample without its end, what a picture of particles is computed from, which no other machine computes.
+  // Size of a sample without its last fields, inputs for a picture of particles, which no other machine computes.
   static constexpr std::size_t kBodyBytes = offsetof(scene::TipSample, level);
 
   template <class Body>

@@ -14,7 +14,7 @@ struct ClusterNetwork {
   static constexpr std::uint32_t kUsualDomain = 50, kMostDomain = 230;
 
   std::string interface_address;        // address of this machine, the only one bound
-  std::vector<std::string> peers;       // addresses; if set, multicast is not used
+  std::vector<std::string> peers;       // addresses of the other machines; if set, multicast is not used
   std::uint32_t domain = kUsualDomain;  // DDS domain: walls in different domains do not see each other
 };
 

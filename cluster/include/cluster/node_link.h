@@ -52,7 +52,7 @@ class NodeLink {
   // Waits until something arrives, at most `timeout_ms`.
   void wait(int timeout_ms);
 
-  std::uint64_t refused() const;  // invalid datagrams
+  std::uint64_t refused() const;  // number of invalid datagrams
 
  private:
   struct Parts;
