@@ -5,7 +5,7 @@
 
 namespace afm::generate {
 
-// A tube of radius 1 along z from 0 to 1, twelve sides, open at both ends: light is drawn by scaling it.
+// A tube of radius 1 along z from 0 to 1, with twelve sides and open ends; scaled to draw light.
 Surface unit_beam();
 
 }  // namespace afm::generate

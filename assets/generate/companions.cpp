@@ -8,7 +8,7 @@ namespace afm::generate {
 namespace {
 
 constexpr double kNm = 1e-9, kUm = 1e-6;
-constexpr int kRound = 4;  // halvings: 64 points around
+constexpr int kRound = 4;  // number of halvings: 64 points around
 
 // Each at its true size, so far from the contact point that it is beside the tip at its own scale. Sizes of a textbook:
 // R. Milo and R. Phillips, "Cell Biology by the Numbers".
@@ -121,7 +121,7 @@ NodeSpec dna() {
   const auto turned = [](V2 a, V2 b) { return V2{a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; };
   const V3 along = unit(V3{0.93, -0.37, 0});
   const Placement lies{{-21 * kNm, -1 * kNm, 1.2 * kNm}, cross({0, 0, 1}, along), {0, 0, 1}, along};
-  std::array<Surface, 3> surfaces;  // strand, strand, pairs
+  std::array<Surface, 3> surfaces;  // two strands and their pairs
   const auto rod = [&](Surface& into, V3 from, V3 to, double radius) {
     const V3 way = to - from;
     const double length = std::sqrt(dot(way, way));

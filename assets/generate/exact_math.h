@@ -35,13 +35,13 @@ inline bool operator==(V3 a, V3 b) { return a.x == b.x && a.y == b.y && a.z == b
 inline double mix(double a, double b, double t) { return a + (b - a) * t; }
 inline V3 mix(V3 a, V3 b, double t) { return a + (b - a) * t; }
 
-// 0 below `low`, 1 above `high`, with zero slope and curvature at both.
+// Smooth step: 0 below `low`, 1 above `high`, with zero slope and curvature at both.
 double smooth_step(double low, double high, double value);
 
 // Unit vectors from `from` to `to`, less than half a turn apart, in 2^halvings equal angles.
 std::vector<V2> arc(V2 from, V2 to, int halvings);
 
-// Evenly spread over 0..1 and the same for the same arguments.
+// Random number, evenly spread over 0..1 and the same for the same arguments.
 double random_unit(std::int64_t column, std::int64_t row, std::uint32_t seed);
 
 // Smooth noise in -1..1 whose features are about one unit wide (value noise with a quintic fade).

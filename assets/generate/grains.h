@@ -9,14 +9,14 @@ namespace afm::generate {
 struct Grains {
   double cell = 0;          // width of a cell
   double smallest = 0;      // height of the smallest grain relative to the largest
-  double radius_low = 0.7;  // share of the cell
+  double radius_low = 0.7;  // smallest radius, relative to the cell
   double radius_high = 1.0;
   std::uint32_t seed = 0;
 
   double height(double x, double y) const;
 
  private:
-  // the fourth power of one grain's height at a place in cells, its highest point being 1 or less
+  // fourth power of one grain's height at a place in cells; its highest point is at most 1
   double grain(std::int64_t column, std::int64_t row, double x, double y) const;
 };
 

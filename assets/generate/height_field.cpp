@@ -85,7 +85,7 @@ std::vector<V3> rim_of(const HeightField& field, int face) {
 
 constexpr V3 kOutward[] = {{0, -1, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
 
-constexpr double kCornerWidths = 2.5;  // length of an outline's strips at the corners: all that is seen of them
+constexpr double kCornerWidths = 2.5;  // length of an outline's strips at the corners, the only visible part of them
 
 // Leaves out points whose heights are within `tolerance` of the line between those that are kept.
 std::vector<V3> simplified(const std::vector<V3>& rim, double tolerance) {

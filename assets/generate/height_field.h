@@ -23,7 +23,7 @@ class HeightField {
   void scale(double factor);
   // Blends into a plateau of `level` around the origin, whole within a third of `radius`.
   void flatten_center(double radius, double level);
-  // Lets the middle stand at height 0.
+  // Shifts all heights so that the middle is at height 0.
   void level_at_center();
 
   V3 position(std::size_t column, std::size_t row) const;

@@ -9,7 +9,7 @@ constexpr double kMm = 1e-3, kUm = 1e-6, kNm = 1e-9;
 
 // The tip rests this far above the sample.
 constexpr double kGap = 0.6 * kNm;
-constexpr double kAtomShell = 0.1 * kNm;  // between the ball and the lowest of its atoms
+constexpr double kAtomShell = 0.1 * kNm;  // distance between the ball and the lowest of its atoms
 
 MaterialSpec wood() { return {.name = "bench", .base_color = {0.19, 0.115, 0.065}, .roughness = 0.42}; }
 MaterialSpec granite() { return {.name = "granite", .base_color = {0.045, 0.047, 0.052}, .roughness = 0.22}; }
@@ -57,7 +57,7 @@ std::vector<Part> instrument() {
   add_placed(metal, rod(17 * kMm, -9.5 * kMm, -2.4 * kMm, 0.5 * kMm, 5), {});
   add_placed(metal, rod(15 * kMm, 150 * kMm, 188 * kMm, 1.5 * kMm), {{0, 18 * kMm, 0}});
   Surface trim;
-  for (const double x : {47 * kMm, -59 * kMm}) {  // focus knobs
+  for (const double x : {47 * kMm, -59 * kMm}) {  // positions of the focus knobs
     add_placed(trim, rod(15 * kMm, 0, 12 * kMm, 1.5 * kMm), {{x, 66 * kMm, 62 * kMm}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}});
   }
   add_placed(trim, rod(24.6 * kMm, 112 * kMm, 120 * kMm, 0.8 * kMm), {{0, 18 * kMm, 0}});

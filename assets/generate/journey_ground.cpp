@@ -13,8 +13,8 @@ namespace {
 constexpr double kNm = 1e-9;
 constexpr double kDiscRadius = 5e-3, kDiscThickness = 0.36e-3;
 constexpr double kInnermost = 0.4 * kNm;
-constexpr double kRingRatio = 1.07;  // cells about as long as wide before the tip
-constexpr int kHalvings = 6;         // 256 directions, of which half are used before the tip
+constexpr double kRingRatio = 1.07;  // ratio for cells about as long as wide in front of the tip
+constexpr int kHalvings = 6;         // 256 directions, of which half are used in front of the tip
 constexpr double kFinest = 2 * 3.14159265358979 / 256;
 constexpr double kAtomsReach = 11.5 * kNm, kAtomsSink = 8.0 * kNm;  // from there outwards fewer and fewer are seen
 constexpr double kNearReach = 5.0 * kNm;                            // round and outlined atoms
@@ -32,8 +32,8 @@ struct Cell {
 
 // Visible features at a decade of scale.
 struct Features {
-  double amplitude;                          // in units of the scale
-  double (*pattern)(V2 at, const Cell& of);  // 0..1 at a position in units of the scale
+  double amplitude;                          // height in units of the scale
+  double (*pattern)(V2 at, const Cell& of);  // value 0..1 at a position in units of the scale
 };
 
 constexpr std::size_t kDecades = 7;  // from 1 mm to 1 nm
@@ -44,7 +44,7 @@ struct Look {
   MaterialSpec material;
   Features decades[kDecades];
   std::function<V3(double)> tint;          // colour for a height 0..1 in the pattern
-  std::function<V3(double)> close_tint{};  // the same where single atoms nearly show, in their mean colour
+  std::function<V3(double)> close_tint{};  // mean colour of the atoms, for scales at which single ones nearly show
 };
 
 struct Place {

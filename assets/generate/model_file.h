@@ -19,15 +19,15 @@ struct MaterialSpec {
   V3 base_color{1, 1, 1};
   double metallic = 0;
   double roughness = 0.5;
-  double alpha = 1;     // below 1: alphaMode BLEND
-  bool fading = false;  // the same, with the alpha of the vertices
+  double alpha = 1;     // coverage; below 1: alphaMode BLEND
+  bool fading = false;  // true: alphaMode BLEND, with the alpha of the vertices
   V3 emissive{0, 0, 0};
   double emissive_strength = 1;
   bool unlit = false;
-  bool vertex_colors = false;  // write COLOR_0
+  bool vertex_colors = false;  // true: writes COLOR_0
 };
 
-// Dark lines around solids.
+// Material of the dark lines around solids.
 inline MaterialSpec outline_material() {
   return {.name = "outline", .base_color = {0.004, 0.004, 0.005}, .roughness = 1, .unlit = true};
 }
@@ -39,22 +39,22 @@ struct Part {
 
 struct NodeSpec {
   std::string name;
-  std::optional<std::size_t> parent{};  // an earlier node
+  std::optional<std::size_t> parent{};  // index of an earlier node; empty: none
   std::optional<Placement> placement{};
   std::vector<Part> parts{};
   Json extras{};
 };
 
-// The extras of a unit shape that only the wall gives a length (docs/gltf.md).
+// Extras of a unit shape whose length only the wall determines (docs/gltf.md).
 Json mark_role();
 
-// One .glb file to be. Lengths in metres.
+// Contents of a .glb file. Lengths in metres.
 struct Model {
   std::string name;  // the file's, without extension
   std::vector<NodeSpec> nodes;
 };
 
-// The bytes of the binary glTF file: the same for the same model on every machine. Positions are rounded to the 2^22nd
+// Contents of the binary glTF file: the same for the same model on every machine. Positions are rounded to the 2^22nd
 // part of each mesh's size.
 std::vector<std::uint8_t> to_glb(const Model& model);
 

@@ -5,8 +5,8 @@
 
 #include "model_file.h"
 
-// The models of assets/models, one function a file or family. Sizes are the instrument's true ones in metres, except
-// for the swatches, the optics and the wand, which are as large as they stand in the room.
+// Models of assets/models, one function per file or family. Sizes are the instrument's true ones in metres, except
+// for the swatches, the optics and the wand, which have their sizes in the room.
 namespace afm::generate {
 
 Model probe();                 // chip, V-shaped cantilever, pyramidal tip
@@ -18,8 +18,8 @@ Model optics();                 // laser, four-quadrant photodiode, beam, spot
 Model wand();
 Model analogy();               // a magnet on a spring above an iron plate
 Model journey();               // the instrument from the bench to its last atom, all about the contact point
-Model companions();            // known things beside it, at their true sizes
-std::vector<Model> grounds();  // the samples for it, from 5 mm to their atoms
+Model companions();            // familiar objects in the journey, at their true sizes
+std::vector<Model> grounds();  // samples in the journey, from 5 mm to their atoms
 Model marks();                 // lines of the ruler and of the bend
 
 inline std::vector<Model> all_models() {

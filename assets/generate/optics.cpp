@@ -6,7 +6,7 @@ namespace afm::generate {
 namespace {
 
 constexpr double kCm = 0.01;
-constexpr int kRound = 3;  // halvings: 32 points around
+constexpr int kRound = 3;  // number of halvings: 32 points around
 
 MaterialSpec anodised() {
   return {.name = "anodised aluminium", .base_color = {0.10, 0.11, 0.13}, .metallic = 0.9, .roughness = 0.38};

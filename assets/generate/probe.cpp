@@ -14,10 +14,10 @@ constexpr double kUm = 1e-6;
 // A soft contact lever as sold for liquids and force curves: V-shaped Si3N4, gold on its back.
 constexpr double kLength = 200 * kUm;
 constexpr double kHalfBase = 90 * kUm;
-constexpr double kLegAcross = 32.5 * kUm;  // measured along y; 30 um across the leg
-constexpr double kNarrowing = 0.4;         // the outer edge's dy/dx
+constexpr double kLegAcross = 32.5 * kUm;  // width along y; 30 um across the leg
+constexpr double kNarrowing = 0.4;         // dy/dx of the outer edge
 constexpr double kTrueThickness = 0.6 * kUm;
-constexpr double kDrawnThickness = 2 * kUm;  // the true one vanishes at a distance
+constexpr double kDrawnThickness = 2 * kUm;  // drawn instead of the true thickness, which would vanish at a distance
 constexpr double kLeverBevel = 0.5 * kUm;
 constexpr double kTipX = 194 * kUm;
 

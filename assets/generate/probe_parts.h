@@ -8,12 +8,12 @@
 // Parts common to the probe and the journey of scale. Metres.
 namespace afm::generate {
 
-// Along +x from its clamp at the origin, its underside at z = 0; what the tip hangs on is at x = lever_tip_x().
+// Cantilever along +x from its clamp at the origin, with its underside at z = 0; the tip is at x = lever_tip_x().
 std::vector<Part> cantilever();
 double lever_tip_x();
-double lever_thickness();  // as it is drawn
+double lever_thickness();  // thickness as drawn
 
-// The tip with its lowest point at the origin: the pyramid's faces and edges, and the ball's cap, finest at the origin.
+// Tip with its lowest point at the origin: the pyramid's faces and edges, and the ball's cap, finest at the origin.
 Surface tip_sides();
 Surface tip_apex();
 double tip_length();  // from the apex to the base
@@ -25,7 +25,7 @@ struct Roundness {
   int around, rings;
 };
 
-// The part of a ball that shows among others, more than half of it, on the side that `facing` says.
+// The visible part of a ball among others, more than half of it, on the side given by `facing`.
 void add_atom(Surface& surface, V3 center, double radius, Facing facing, V3 color, Roundness roundness);
 
 }  // namespace afm::generate

@@ -7,10 +7,10 @@
 namespace afm::generate {
 namespace {
 
-// In metres of the exhibit: x right, y up, z towards the viewer; the floor is at y = 0, the wall at z = 0.
-constexpr double kBack = 4.2, kBeside = 3.4;  // extent; the edge has dissolved into the background
-constexpr double kFront = 0.80;               // before the wall: under the shelf, and no further into the room
-constexpr double kFrontBeside = 1.25;         // objects before the wall must not be cut off at their sides
+// Lengths in metres of the exhibit: x right, y up, z towards the viewer; the floor is at y = 0, the wall at z = 0.
+constexpr double kBack = 4.2, kBeside = 3.4;  // extent within which the edge has dissolved into the background
+constexpr double kFront = 0.80;               // extent in front of the wall: below the shelf, no farther into the room
+constexpr double kFrontBeside = 1.25;         // extent to the sides, so that no object in front of the wall is cut off
 constexpr int kRings = 10;
 
 // The soft shade of the stage, which ends in the floor, wider away from the key light: the floor takes no other.

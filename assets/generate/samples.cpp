@@ -26,7 +26,7 @@ NodeSpec surface_node(const HeightField& field, std::vector<Part> parts) {
 
 // `bottom`: height of the cut faces' lower edge.
 Model sample(std::string name, NodeSpec node, const HeightField& field, double bottom) {
-  constexpr double kOutline = 0.0028;  // share of the side
+  constexpr double kOutline = 0.0028;  // width relative to the side
   Model model{std::move(name), {}};
   model.nodes.push_back({.name = "sample",
                          .placement = kYUpFromZUp,
@@ -62,7 +62,7 @@ class MicaSteps {
   Surface face(std::uint32_t k) const {
     struct Row {
       double offset;  // distance from the line, in half widths of the riser
-      double upper;   // share of the upper terrace's hue
+      double upper;   // fraction of the upper terrace's hue
       double lit;
     };
     constexpr Row kRows[] = {{-1.05, 0, 1},  {-0.92, 0, 0.66}, {-0.8, 0, 0.45}, {0.4, 0.5, 0.55},
@@ -107,7 +107,7 @@ Model mica() {
   const HeightField field(90, 40 * kNm / 90, [&](double x, double y) { return steps.height(x, y); });
 
   // the cut face of clear sheets: each as the one above, with a fine dark gap below it
-  constexpr double kGap = 0.14;  // share of a layer
+  constexpr double kGap = 0.14;  // height relative to a layer
   const V3 sheet{0.80, 0.86, 0.88}, gap{0.34, 0.40, 0.44};
   std::vector<WallBand> bands;
   for (int layer = 2; layer > -9; --layer) {

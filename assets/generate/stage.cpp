@@ -7,7 +7,7 @@ namespace {
 constexpr double kMm = 1e-3;
 constexpr V2 kPlateHalf{8.0 * kMm, 6.6 * kMm};
 constexpr double kPlateHeight = 0.30 * kMm;
-constexpr int kRound = 3;  // halvings: 32 points around
+constexpr int kRound = 3;  // number of halvings: 32 points around
 
 MaterialSpec steel() { return {.name = "steel", .base_color = {0.56, 0.57, 0.58}, .metallic = 1, .roughness = 0.32}; }
 MaterialSpec anodised() {
@@ -59,7 +59,7 @@ Surface body() {
   const V2 half = kPlateHalf - V2{in, in};
   const Outline outline = rounded_rectangle(half * -1.0, half, 0.5 * kMm, kRound);
   constexpr std::size_t kBands = 8;
-  constexpr double kEnd = 0.62;  // nothing is seen below
+  constexpr double kEnd = 0.62;  // lowest visible height
   Surface surface;
   surface.add_grid(kBands + 1, outline.size() + 1, [&](std::size_t row, std::size_t column) {
     const OutlinePoint& point = outline[column % outline.size()];

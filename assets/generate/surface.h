@@ -13,8 +13,8 @@ namespace afm::generate {
 struct SurfaceVertex {
   V3 position;
   V3 normal;
-  V3 color{1, 1, 1};  // linear, multiplies the material's
-  double alpha = 1;   // the same
+  V3 color{1, 1, 1};  // linear, multiplied by the material's colour
+  double alpha = 1;   // coverage, multiplied by the material's
 };
 
 // Diagonals of quads: all alike, or the more level one of each, so that the edge of a step runs smoothly across them.
@@ -25,7 +25,7 @@ struct Surface {
   std::vector<std::uint32_t> indices;
 
   std::uint32_t add(const SurfaceVertex& vertex);
-  // Counter-clockwise as seen from outside; one without area is left out.
+  // Adds a triangle, counter-clockwise as seen from outside; omits one without area.
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
   // Quads between rows x columns vertices; the outside is where (next column - here) x (next row - here) points.
   void add_grid(std::size_t rows, std::size_t columns,
@@ -47,7 +47,7 @@ Outline circle(double radius, int halvings);
 Outline rounded_polygon(const std::vector<V2>& corners, double radius, int halvings);
 Outline rounded_rectangle(V2 low, V2 high, double radius, int halvings);
 
-// Parallel to the outline, `distance` nearer to its middle; no arc may be smaller than that.
+// A curve parallel to the outline, `distance` nearer to its middle; no arc may be smaller than that.
 Outline inset(const Outline& outline, double distance);
 
 // One level of a loft: an outline at height z; the surface's normal there leans `out` outwards and `up` upwards.
@@ -63,7 +63,7 @@ struct Section {
 void add_loft(Surface& surface, const std::vector<Section>& sections);
 
 enum class Facing { Up, Down };
-// The area inside a convex outline.
+// Adds the area inside a convex outline.
 void add_cap(Surface& surface, const Outline& outline, double height, Facing facing);
 
 // A solid of revolution about z: the profile's outlines are circles of these radii.
@@ -79,7 +79,7 @@ void add_lathe(Surface& surface, const std::vector<ProfilePoint>& profile, int h
 void add_prism(Surface& surface, const Outline& outline, double low, double high, double bevel);
 
 // A shell around a solid between two outlines of equally many points, `width` off it, without a top and wound inwards:
-// seen from above, or along z, only a rim around the solid is seen of it. Coarser outlines than the solid's will do.
+// seen from above, or along z, only a rim around the solid shows. Its outlines may be coarser than the solid's.
 Surface outline_of(const Outline& foot, double low, const Outline& rim, double high, double width);
 
 // Pose of a part: its axes (orthonormal, right-handed) and origin in the frame that it is put into.
@@ -93,7 +93,7 @@ struct Placement {
 };
 void add_placed(Surface& surface, const Surface& part, const Placement& placement);
 
-// A local frame with z upwards in one with y upwards.
+// Placement of a frame with z upwards in one with y upwards.
 inline constexpr Placement kYUpFromZUp{{0, 0, 0}, {1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
 
 }  // namespace afm::generate

@@ -11,8 +11,8 @@ constexpr double kOutline = 0.17 * kCm;
 
 // The plinth, seen from its right side (z to the viewer): a block whose front leans back under the label.
 constexpr double kWidth = 30 * kCm, kDepth = 22 * kCm, kPlinthHeight = 8 * kCm;
-constexpr V2 kFrontLow{11 * kCm, 1.8 * kCm};               // z, y
-constexpr V2 kFrontHigh{5.5 * kCm, kPlinthHeight};         // z, y
+constexpr V2 kFrontLow{11 * kCm, 1.8 * kCm};               // coordinates z, y
+constexpr V2 kFrontHigh{5.5 * kCm, kPlinthHeight};         // coordinates z, y
 constexpr double kTopMiddle = (5.5 * kCm - 11 * kCm) / 2;  // z of the middle of the top
 
 MaterialSpec plinth_material() { return {.name = "plinth", .base_color = {0.060, 0.065, 0.075}, .roughness = 0.42}; }
@@ -141,7 +141,7 @@ Model gold() {
   Surface pile, outline;
   const Surface bar = ingot();
   const Surface around = outline_of(bar_outline(0, 0), 0, bar_outline(kBarLean, 0), kBarHeight, kOutline);
-  const V3 along{0.96, 0, -0.28};  // turned by 16 degrees
+  const V3 along{0.96, 0, -0.28};  // direction turned by 16 degrees
   for (const Placement& placement :
        {upright(0, kPlinthHeight, kTopMiddle - 3.9 * kCm), upright(0, kPlinthHeight, kTopMiddle + 3.9 * kCm),
         Placement{{0, kPlinthHeight + kBarHeight, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}}}) {

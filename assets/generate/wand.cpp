@@ -6,7 +6,7 @@ namespace afm::generate {
 namespace {
 
 constexpr double kCm = 0.01;
-constexpr int kRound = 3;  // halvings: 32 points around
+constexpr int kRound = 3;  // number of halvings: 32 points around
 
 MaterialSpec grip() { return {.name = "grip", .base_color = {0.045, 0.05, 0.06}, .roughness = 0.55}; }
 MaterialSpec shell() { return {.name = "shell", .base_color = {0.75, 0.78, 0.80}, .roughness = 0.30}; }
