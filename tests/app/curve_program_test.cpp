@@ -99,7 +99,7 @@ TEST(CurveProgram, RefusesBadMaterialFiles) {
                  3, "line 11: material.reduced_modulus");
   expect_refusal("curve --material mica --materials /no/such.toml", 3, "/no/such.toml");
   expect_refusal("curve --material mica --probe ppp-contr --probes /no/such.toml", 3, "/no/such.toml");
-  expect_refusal("curve --material mica --probes /no/such.toml", 2, "--probe");  // it was not read at all
+  expect_refusal("curve --material mica --probes /no/such.toml", 2, "--probe");  // unread file, hence another error
 }
 
 TEST(CurveProgram, TakesAMaterialOfTheUsersOwnBesideTheBuiltInOnes) {

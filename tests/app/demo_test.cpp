@@ -121,7 +121,7 @@ TEST_F(Demo, LeavesCurvesAndSessionsOfEveryMaterial) {
     ASSERT_NE(session->find(physics::EventKind::JumpOffContact), nullptr);
     const std::string csv = core::read_file(folder_->file(std::string("curve-") + name + ".csv")).value();
     EXPECT_THAT(csv, HasSubstr("# hamaker_J: "));
-    std::size_t head = 0;  // lines before the columns' names: events, parameters and their sources
+    std::size_t head = 0;  // number of lines before the names of the columns: events, parameters and their sources
     for (std::size_t at = 0; csv[at] == '#'; at = csv.find('\n', at) + 1) ++head;
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), session->samples.size() + head + 1U);
     EXPECT_GT(head, session->events.size() + 16U) << "parameters and their sources";

@@ -58,7 +58,7 @@ TEST(FaultBundle, KeepsADevicesModelAlone) {
 
 TEST(FaultBundle, KeepsTheNameOfEveryKindOfDevice) {
   for (const haptics::DeviceKind& kind : haptics::device_kinds()) {
-    if (kind.word == haptics::simulated_kind().word) continue;  // nobody's device
+    if (kind.word == haptics::simulated_kind().word) continue;  // simulated device, which nobody owns
     EXPECT_EQ(model_of(kind.subject), kind.subject);
   }
 }

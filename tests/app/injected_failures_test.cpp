@@ -48,7 +48,7 @@ class InjectedFailures : public ::testing::TestWithParam<Command> {
     const auto whole = with_failure(kind + ":all", report, GetParam().line);
     EXPECT_EQ(whole.exit_code, 0) << whole.err;
     std::istringstream lines(core::read_file(report).value_or(""));
-    std::map<std::string, std::string> results;  // the first line of each
+    std::map<std::string, std::string> results;  // first line of each
     long tried = 0;
     for (std::string line; std::getline(lines, line);) {
       if (line.starts_with("count")) break;

@@ -30,7 +30,7 @@ constexpr std::size_t kLongestError = 1500;
 
 struct Reading {
   const char* name;
-  const char* command;  // {} is the folder of the test
+  const char* command;  // command in which {} is the folder of the test
   const char* file;     // source file that is damaged
   const char* place;    // path of the damaged copy in the folder
   bool live = false;    // the command goes on until SIGINT, which it gets after 3 s

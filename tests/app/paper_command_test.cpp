@@ -60,7 +60,7 @@ TEST_F(PaperCommand, PutsThePrintedAndTheExactNumberBesideEachOther) {
   EXPECT_NEAR(gap["printed"], 0.799e-9, 1e-21);
   EXPECT_NEAR(gap["exact"], 1.59834899139e-9, 1e-18);
   EXPECT_EQ(gap["erratum"], "swapped columns");
-  EXPECT_TRUE(gap["measured"].is_null());  // a gap cannot be measured
+  EXPECT_TRUE(gap["measured"].is_null());  // null, since a gap cannot be measured
   const auto& attraction = json["table2"]["mica"]["F_attr_N"];
   EXPECT_NEAR(attraction["printed"], 0.2387e-9, 1e-21);
   EXPECT_NEAR(attraction["exact"], 2.39752348708e-10, 1e-19);

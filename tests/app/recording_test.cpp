@@ -114,7 +114,7 @@ TEST_F(RecordingTest, DrawsTheFrameThatWasOnTheWall) {
       session->seconds_since_start(std::min(session->wall.back().time_ns, session->samples.back().time_ns));
   // the servo's figures and the depth meter's differ
   EXPECT_LT(test::difference(saved, draw(end_s, "end.png"), 24).share_beyond, 0.04);
-  EXPECT_GT(test::difference(saved, draw(0.0, "begin.png"), 24).share_beyond, 0.15);  // the instrument, no panel
+  EXPECT_GT(test::difference(saved, draw(0.0, "begin.png"), 24).share_beyond, 0.15);  // instrument without a panel
 }
 
 }  // namespace recording_test

@@ -36,7 +36,7 @@ class KeyboardOfTheView : public ::testing::Test {
                               display_.name());
     ASSERT_TRUE(view.says("F1 shows the keys")) << view.said();
     run("xdotool search --sync --name TouchAFM windowfocus --sync");
-    run("xdotool key 10");  // the place of 1
+    run("xdotool key 10");  // place of the key 1
     ASSERT_TRUE(view.says("chosen: Mica")) << view.said();
     ASSERT_NE(view.says_one_of({"Lift", "Press Turn-On"}), "") << view.said();
     run("xdotool key F8");

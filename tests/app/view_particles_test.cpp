@@ -82,7 +82,7 @@ class ViewParticles : public ::testing::Test {
     for (int tries = 0; tries < 10; ++tries) {
       drag(0.0, 0.130);
       drag(-0.150, 0.0);
-      drag(0.040, 0.0);  // 30 mm left of the middle
+      drag(0.040, 0.0);  // position 30 mm left of the middle
       if (!switches_on(view)) return false;
       drag(0.0, -0.072, 10);
       if (view.says_one_of({"jump to contact", "force off"}) != "jump to contact") continue;
@@ -297,9 +297,9 @@ TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
 // A set whose sample keeps marks, and what the window says of them.
 struct Marked {
   const char* set;
-  const char* nothing_yet;  // to take back
+  const char* nothing_yet;  // text while there is nothing to take back
   const char* begins;
-  const char* ends;  // none if empty
+  const char* ends;  // text at the end; empty: none
   const char* taken_back;
   physics::EventKind mark;
 };

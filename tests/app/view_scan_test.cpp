@@ -157,7 +157,7 @@ TEST_F(ViewScan, IsTakenByTheHandAndDrawnAgain) {
   EXPECT_FALSE(program.says_one_of({"Hold Turn-On: the tip leads", "press and hold Turn-On"}).empty());
   xdotool("key l");
   ASSERT_TRUE(program.says("scan: the hand takes the image")) << program.said();
-  ASSERT_TRUE(program.says("scan: ended")) << program.said();  // takes the lead from the servo
+  ASSERT_TRUE(program.says("scan: ended")) << program.said();  // end of the lead from the servo
   ASSERT_TRUE(hand_takes_the_image(program)) << program.said();
   xdotool("mousemove 160 120 mousedown 3");
   for (const char* place : {"200 120", "120 115", "200 110", "120 105", "200 125", "120 130", "200 135"}) {

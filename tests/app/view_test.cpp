@@ -216,7 +216,7 @@ TEST_F(ViewTest, GoesThroughEveryStereoModeOfThisDisplayWhileItRuns) {
   const render::Image scene = picture("stereo");
   xdotool("key g");
   double differs = 0.0;
-  for (int pause = 0; pause < 60 && differs <= 0.2; ++pause) {  // a frame of this mode is large and may take a while
+  for (int pause = 0; pause < 60 && differs <= 0.2; ++pause) {  // frames of this mode are large and may take a while
     xdotool("sleep 0.5");
     differs = share_that_differs(picture("pattern"), scene);
   }

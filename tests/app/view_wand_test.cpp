@@ -65,8 +65,8 @@ TEST(ViewWand, AFlystickChoosesGoldMovesTheSceneAndBringsItHome) {
 }
 
 struct Contact {
-  int moved = 0, told = 0;  // log lines: the scene was moved, and it is locked
-  bool whole = false;       // the tip jumped off before the force ended
+  int moved = 0, told = 0;  // numbers of log lines: the scene was moved; it is locked
+  bool whole = false;       // true: the tip jumped off before the force ended
 };
 
 std::vector<Contact> contacts_in(const std::string& said) {

@@ -13,14 +13,14 @@ namespace {
 
 // A declaration in a class, as far as it has been read.
 struct Declaration {
-  std::string first;       // word
-  int commas = 0;          // between declarators
-  int angles = 0;          // open angle brackets
-  bool call = false;       // parameters of a function
-  bool value = false;      // part after =
-  bool fixed = false;      // static
-  bool operation = false;  // operator
-  bool members = false;    // initialisers of a constructor
+  std::string first;       // first word
+  int commas = 0;          // number between declarators
+  int angles = 0;          // number of open angle brackets
+  bool call = false;       // true: parameters of a function
+  bool value = false;      // true: part after =
+  bool fixed = false;      // true: static
+  bool operation = false;  // true: operator
+  bool members = false;    // true: initialisers of a constructor
 };
 
 void count(const Declaration& declaration, ClassShape& shape) {
@@ -163,7 +163,7 @@ std::vector<ClassShape> classes_of(std::string_view source) {
 std::set<std::string> owners_of_members(std::string_view source) {
   const Tokens tokens = tokens_of(source);
   std::set<std::string> owners;
-  bool value = false;  // after the = of a declaration
+  bool value = false;  // true: after the = of a declaration
   for (std::size_t i = 0; i < tokens.size();) {
     const std::string& token = tokens[i];
     if (token == "=" && tokens[i - 1] != "operator") value = true;

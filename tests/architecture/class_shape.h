@@ -8,18 +8,18 @@
 
 namespace afm::support {
 
-// Size of a class, as its definition has it. Nested classes are counted by themselves.
+// Size of a class, from its definition. Nested classes are counted separately.
 struct ClassShape {
   std::string name;
-  int fields = 0;     // not static
-  int functions = 0;  // every declaration, constructors and operators too
+  int fields = 0;     // number of non-static fields
+  int functions = 0;  // number of declarations, including constructors and operators
 };
 
-// All classes and structs that a C++ source defines, those in functions left out.
+// All classes and structs that a C++ source defines, except those in functions.
 std::vector<ClassShape> classes_of(std::string_view source);
 
-// Names of the classes whose members a C++ source defines outside the class, as they stand there ("Outer::Inner");
-// namespaces, whose functions are defined so, are among them.
+// Names of the classes whose members a C++ source defines outside the class, as written there ("Outer::Inner");
+// includes namespaces whose functions are defined in this way.
 std::set<std::string> owners_of_members(std::string_view source);
 
 }  // namespace afm::support

@@ -30,7 +30,7 @@ std::string text_of(const std::string& path) { return core::read_file(support::s
 struct Block {
   std::string text;
   std::size_t line = 0;
-  std::vector<std::string> header, cells;  // row only
+  std::vector<std::string> header, cells;  // cells of a row
 
   const std::string* cell(std::string_view column) const {
     for (std::size_t i = 0; i < header.size() && i < cells.size(); ++i) {

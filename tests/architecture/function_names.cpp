@@ -60,8 +60,8 @@ class NameReader {
   // Reads one declaration, or up to the declarations in its braces; returns the index after it.
   std::size_t read_declaration(std::size_t from) {
     std::size_t function = 0;  // index of its name
-    bool ready = true;         // no name, value or operator yet
-    bool called = false;       // parameters seen
+    bool ready = true;         // true: no name, value or operator yet
+    bool called = false;       // true: parameters seen
     std::size_t i = from;
     for (; i < tokens_.size(); ++i) {
       const std::string& token = tokens_[i];

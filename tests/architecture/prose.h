@@ -10,7 +10,7 @@ namespace afm::support {
 // Text for people, with the line of the file that each character comes from.
 struct Prose {
   std::string text;
-  std::vector<int> lines;  // one for each character
+  std::vector<int> lines;  // line of each character
 
   void add(std::string_view piece, int line);
 };

@@ -28,7 +28,7 @@ constexpr std::string_view kProgram = "touchafm ";
 
 struct Quotation {
   std::string where;
-  std::string text;  // from "touchafm" on
+  std::string text;  // text from "touchafm" on
 };
 
 // A command in text ends with the quotation, a pipe, or a comment.
@@ -41,7 +41,7 @@ std::vector<Quotation> quotations_of(const std::string& where, const std::string
   std::vector<Quotation> found;
   std::istringstream lines(page);
   bool in_block = false;
-  std::string open;  // a command whose line ends with a backslash
+  std::string open;  // command whose line ends with a backslash
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("```")) in_block = !in_block;
     if (!open.empty()) {

@@ -22,7 +22,7 @@ namespace quoted_messages_test {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-constexpr std::string_view kAnything = "…";  // in a quotation: a name or a number
+constexpr std::string_view kAnything = "…";  // name or number in a quotation
 
 std::string text_of(const std::string& path) { return core::read_file(support::source(path)).value(); }
 

@@ -18,7 +18,7 @@ TEST(ClockOffset, IsThatOfTheShortestRoundTrip) {
   ClockOffset clock;
   EXPECT_EQ(clock.ahead_ns(), 0);
   EXPECT_EQ(clock.add(answered(1000, 100), 1000 + 100 + 40 + 20), 120);
-  EXPECT_EQ(clock.ahead_ns(), 540);  // half of the difference between the two ways is its fault
+  EXPECT_EQ(clock.ahead_ns(), 540);  // half of the difference between both directions, its largest error
   EXPECT_EQ(clock.add(answered(2000, 8), 2000 + 8 + 40 + 10), 18);
   EXPECT_EQ(clock.ahead_ns(), 499);
   EXPECT_EQ(clock.add(answered(3000, 70), 3000 + 70 + 40 + 10), 80);

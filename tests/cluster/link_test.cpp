@@ -35,7 +35,7 @@ using namespace afm;
 using namespace afm::cluster;
 using testing::HasSubstr;
 
-constexpr std::int64_t kLongestWaitNs = 20'000'000'000;  // ends a test that hangs
+constexpr std::int64_t kLongestWaitNs = 20'000'000'000;  // limit that ends a hanging test
 
 // A master and a node in one process: DDS hands over what they write without the network.
 class ClusterLinkTest : public testing::Test {
@@ -230,7 +230,7 @@ TEST_F(ClusterLinkTest, ReceivesOnTheNamedInterfaceAlone) {
     ++receivers;
     EXPECT_EQ(*interface, "lo");
   }
-  EXPECT_GE(receivers, 2);  // discovery and data
+  EXPECT_GE(receivers, 2);  // sockets for discovery and data
 }
 
 // What a person has configured for other programs that use Cyclone does not reach a wall: here a log of everything.

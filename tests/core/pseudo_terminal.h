@@ -21,7 +21,7 @@ struct PseudoTerminal {
 
 namespace detail {
 
-// A container without /dev/pts has no /dev/ptmx that works; root mounts one that nobody else sees.
+// A container without /dev/pts lacks a working /dev/ptmx; root mounts a private one.
 inline FileDescriptor terminal_device() {
   FileDescriptor device(::posix_openpt(O_RDWR | O_NOCTTY));
   if (device.get() >= 0) return device;
@@ -33,7 +33,7 @@ inline FileDescriptor terminal_device() {
 
 }  // namespace detail
 
-// Nothing if the machine has no pseudo-terminals and the user is not root.
+// Empty if the machine has no pseudo-terminals and the user is not root.
 inline std::optional<PseudoTerminal> open_pseudo_terminal() {
   FileDescriptor reader = detail::terminal_device();
   const int unlock = 0;

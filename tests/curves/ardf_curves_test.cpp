@@ -35,7 +35,7 @@ using testing::HasSubstr;
 constexpr std::uint32_t kColumns = 3, kRows = 2, kCurves = kColumns * kRows;
 constexpr std::uint32_t kExtend = 30, kDwell = 5, kRetract = 25, kPoints = kExtend + kDwell + kRetract;
 constexpr double kSpring = 0.05, kStepM = 10e-9, kSlope = 0.25;
-constexpr std::uint32_t kUnused = 1 - kPoints;  // beginning of a segment that is not there
+constexpr std::uint32_t kUnused = 1 - kPoints;  // beginning of a missing segment
 
 struct Map {
   std::string note = "SpringConstant: 0.05\rInvOLS: 6e-08\rMicroscopeModel: Cypher\rDate: 2026-11-30\r";
@@ -57,7 +57,7 @@ float deflection_at(std::uint32_t curve, std::uint32_t point) {
 class Writer {
  public:
   std::string bytes;
-  std::vector<std::size_t> sections;  // their places
+  std::vector<std::size_t> sections;  // places of the sections
 
   void put(std::string_view name, const std::string& contents) {
     sections.push_back(bytes.size());

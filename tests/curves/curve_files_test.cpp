@@ -262,7 +262,7 @@ TEST(CurveFiles, RefuseWhatIsNoForceDistanceCurve) {
 TEST(CurveFiles, RefuseAFileThatIsTooLargeBeforeReadingIt) {
   const support::ScratchFolder folder;
   const std::string path = folder.write("large.tab", "#");
-  std::filesystem::resize_file(path, std::uintmax_t{300} << 20U);  // sparse
+  std::filesystem::resize_file(path, std::uintmax_t{300} << 20U);  // sparse file
   const auto read = load_curve(path);
   ASSERT_FALSE(read.has_value());
   EXPECT_THAT(read.error().message, HasSubstr("larger than 256 MiB"));

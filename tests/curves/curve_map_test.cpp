@@ -96,7 +96,7 @@ TEST_F(ForceMap, HasTheFitOfEachCurveAndWithoutAFitNone) {
   options.radius_m = test::kHertzRadiusM;
   ASSERT_TRUE(prepare(options));
   auto entries = test::jpk_map([](std::size_t) { return test::hertz_curve(200); });
-  entries["index/2/segments/1/channels/vDeflection.dat"].pop_back();  // at the lower right
+  entries["index/2/segments/1/channels/vDeflection.dat"].pop_back();  // curve at the lower right
   const std::string path = write(entries);
   EXPECT_TRUE(CurveMap::load(path, kGoOn).value().fits().empty());
   const auto map = CurveMap::load(path, kGoOn, {}, fit_of_each(path, options));
@@ -111,7 +111,7 @@ TEST_F(ForceMap, HasTheFitOfEachCurveAndWithoutAFitNone) {
   EXPECT_NEAR(fitted.modulus_pa, test::kHertzModulusPa, 0.02 * test::kHertzModulusPa);
 
   CurveReading reading;
-  reading.index = 0;  // at the lower left
+  reading.index = 0;  // curve at the lower left
   const FittedCurve alone = fitted_curve(path, load_curve(path, reading), options);
   ASSERT_TRUE(alone.fit) << alone.why;
   EXPECT_EQ(fitted.modulus_pa, alone.fit->modulus_pa);
@@ -232,7 +232,7 @@ TEST_F(ForceMap, IsWalkedOverPixelByPixel) {
   EXPECT_EQ(pixels.model().pixel->place, (MapPlace{1, 1}));
   EXPECT_EQ(pixels.value(Row::PixelRow), "1");
 
-  LiveParameters other(loaded);  // on another machine of the wall
+  LiveParameters other(loaded);  // parameters on another machine of the wall
   ASSERT_TRUE(other.restore(pixels.state()));
   EXPECT_EQ(other.model().pixel->place, (MapPlace{1, 1}));
   LiveParameters::State foreign = pixels.state();

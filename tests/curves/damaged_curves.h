@@ -13,7 +13,7 @@
 namespace afm::test {
 
 // Changes up to four bytes of the first `header` bytes of a file 6000 times, to digits, blanks or anything else, and
-// reads curve 0 and curve `last` of it here: whatever is accepted is finite. Returns how many are.
+// reads curve 0 and curve `last` of it: all accepted values must be finite. Returns the number of accepted files.
 inline int read_after_damage(const std::string& file, std::size_t header, std::size_t last) {
   std::mt19937 random(19);
   int read = 0;

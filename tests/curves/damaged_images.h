@@ -12,8 +12,8 @@
 
 namespace afm::test {
 
-// Changes up to four bytes of each file 3000 times, sometimes cutting it, and reads it here: whatever is accepted is a
-// whole image. Returns how many are.
+// Changes up to four bytes of each file 3000 times, sometimes cutting it, and reads it: every accepted file must be a
+// whole image. Returns the number of accepted files.
 inline int read_after_damage(const std::vector<std::string>& files) {
   std::mt19937 random(19);
   int read = 0;

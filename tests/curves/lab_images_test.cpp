@@ -23,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr double kFourDigits = 1e-4;  // relative
+constexpr double kFourDigits = 1e-4;  // relative tolerance
 
 std::string path_of(const std::string& name) { return support::source("tests/data/afm/" + name); }
 

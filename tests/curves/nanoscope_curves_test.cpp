@@ -26,7 +26,7 @@ constexpr double kRamp_m = 50.0 * 12.5e-9;
 struct Channel {
   std::string name = "Deflection Error";
   std::string scale = "V [Sens. DeflSens] (0.0003750 V/LSB) 24.576 V";
-  std::vector<int> integers;  // as stored: the extend from the sample outwards, then the retract
+  std::vector<int> integers;  // stored order: the extend from the sample outwards, then the retract
 };
 
 struct Ramp {
@@ -35,7 +35,7 @@ struct Ramp {
   std::string sensitivity = "\\@Sens. DeflSens: V 60.0 nm/V\r\n";
   std::string spring = "\\Spring Constant: 0.32\r\n";
   std::string list = "\\@4:Ramp size Zsweep: V [Sens. Zsens] (0.0067 V/LSB) 50.0 V\r\n";
-  std::string other;  // another block
+  std::string other;  // text of another block
   int bytes = 2;
 };
 

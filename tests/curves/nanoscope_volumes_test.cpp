@@ -40,7 +40,7 @@ struct Volume {
     return static_cast<int>(100 * row + 10 * column);
   };
   std::size_t curves = kCurves;
-  bool swings = false;  // deflection that counts the time in a period
+  bool swings = false;  // true: deflection that counts the time in a period
   std::string sensor_name = "Height Sensor";
   int sensed = 0;  // 1, -1: both channels swing, with this sign of the sensor
 };
@@ -171,7 +171,7 @@ TEST(NanoscopeVolume, IsAForceMap) {
   const auto map = CurveMap::load(path, [](std::size_t, std::size_t) { return true; });
   ASSERT_TRUE(map) << map.error().message;
   EXPECT_EQ(map->pixels_with_curve(), kCurves);
-  const std::vector<double> steps{100, 110, 120, 0, 10, 20};  // from the top
+  const std::vector<double> steps{100, 110, 120, 0, 10, 20};  // rows from the top
   for (std::size_t i = 0; i < kCurves; ++i) EXPECT_NEAR(map->heights_m()[i], kHeightStep_m * steps[i], 1e-15) << i;
 }
 

@@ -44,7 +44,7 @@ inline std::string park_header_bytes(const ParkHeader& header) {
   return bytes;
 }
 
-// The first `numbers` are those of the lowest row.
+// A Park image file; the first `numbers` are those of the lowest row.
 inline std::string park_image_file(const ParkHeader& header, const std::string& numbers,
                                    std::uint32_t version = 0x01000002) {
   TiffPage page;

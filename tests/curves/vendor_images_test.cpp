@@ -23,7 +23,7 @@ using testing::HasSubstr;
 using testing::Pair;
 using namespace afm::test;
 
-constexpr double kExact = 1e-21;  // m, for heights of nanometres
+constexpr double kExact = 1e-21;  // tolerance in metres, for heights of nanometres
 
 LoadedImage loaded(const std::string& bytes, const std::string& channel = {}) {
   auto image = parse_image(bytes, "scan.x", {.channel = channel});

@@ -95,7 +95,7 @@ TEST(ZipArchive, RefusesAnEntryThatIsNotWhatItSays) {
                 HasSubstr("\"a\" in its archive is damaged"))
         << claimed;
   }
-  constexpr std::size_t kContent = 31;  // behind the local header and the name
+  constexpr std::size_t kContent = 31;  // offset after the local header and the name
   for (std::size_t at = kContent; at < kContent + 8; ++at) {
     std::string damaged(whole);
     damaged[at] = static_cast<char>(damaged[at] ^ 0x55);

@@ -69,7 +69,7 @@ TEST_F(CycleHistoryTest, AContactRemembersThatItWasPressedUntilItEnds) {
   move(-0.010, physics::Phase::Attached);
   EXPECT_TRUE(cycles_.pressed());
   move(0.050, physics::Phase::Attached);
-  move(0.040, physics::Phase::Attached);  // jerked down by the pull
+  move(0.040, physics::Phase::Attached);  // jerk by the pull
   EXPECT_TRUE(cycles_.pressed());
   move(0.070, physics::Phase::Free);
   EXPECT_FALSE(cycles_.pressed());

@@ -205,7 +205,7 @@ TEST_F(Flashes, NothingChangesMoreThanThreeTimesASecondHoweverFastTheTipChatters
 // The line that names the part of the cycle follows it at once. Its letters are too small for a flash: together they
 // take less than 0.006 steradians.
 TEST_F(Flashes, TheLineThatFollowsTheTipIsTooSmallForOne) {
-  constexpr double kLargestSafeSr = 0.006, kLetterMm = 40.0, kMeanWidth = 0.6;  // share of a letter's height
+  constexpr double kLargestSafeSr = 0.006, kLetterMm = 40.0, kMeanWidth = 0.6;  // fraction of a letter's height
   EXPECT_GT(chatter(20.0).most("stage"), 3U) << "or it needs no exception";
   const double distance_m = stage_->wall.viewers.front().sweet_spot.position_m.z;
   const double letter_m = kLetterMm * stage_->wall_scene.panel_millimetre_m();

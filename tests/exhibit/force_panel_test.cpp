@@ -157,7 +157,7 @@ glm::dvec3 lab(const glm::dvec3& c) {
 
 TEST(ForcePanel, CurvesDifferWithoutRedGreenOrBlueVision) {
   constexpr double kClearlyDifferent = 20.0;  // 2.3 is just noticeable side by side
-  constexpr double kPapersThree = 40.0;       // without red or green vision
+  constexpr double kPapersThree = 40.0;       // difference without red or green vision
   for (const auto& matrix : kDichromats) {
     const double three = &matrix == &kDichromats.back() ? kClearlyDifferent : kPapersThree;
     const auto seen = [&](std::size_t i) {

@@ -21,7 +21,7 @@ using physics::FrictionLaw;
 using physics::Length;
 
 constexpr double kStrokeM = 10e-9;
-constexpr int kTicks = 500;  // per stroke
+constexpr int kTicks = 500;  // number per stroke
 constexpr double kPeriodM = 0.5e-9;
 
 // What the servo gives while a hand leads the tip along a line of this direction.
@@ -132,7 +132,7 @@ TEST(FrictionPanel, ShowsTheLastLoopWhileTheNextStrokeStillSticks) {
   hand.land();
   hand.there_and_back();
   hand.there_and_back();
-  hand.to(1.01e-9);  // farther than a turn, not as far as the tip sticks at both ends
+  hand.to(1.01e-9);  // farther than a turn, but not as far as the tip sticks at both ends
   const render::ForcePanel panel = panel_of(history);
   ASSERT_EQ(panel.curves.size(), 3U);
   EXPECT_EQ(panel.curves[2].label, "now");

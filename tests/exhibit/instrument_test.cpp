@@ -183,7 +183,7 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
     const glm::dmat4 sample_from_room = glm::inverse(state.room_from_node[node("sample")]);
     for (const char* mark : {"marks/unbent", "marks/push", "marks/pull", "marks/push-head", "marks/pull-head"}) {
       const glm::dmat4 sample_from_mark = sample_from_room * state.room_from_node[node(mark)];
-      if (glm::length(glm::dvec3(sample_from_mark[2])) == 0.0) continue;  // not drawn
+      if (glm::length(glm::dvec3(sample_from_mark[2])) == 0.0) continue;  // hidden mark
       ++shown;
       for (double way = 0.0; way <= 1.0; way += 0.02) {
         const glm::dvec3 there(sample_from_mark * glm::dvec4(0.0, 0.0, way, 1.0));
@@ -376,7 +376,7 @@ TEST_F(SwingTest, HasABandWithoutHoles) {
     const auto corner = [&](std::size_t k) { return glm::dvec3(band.vertices[band.indices[i + k]].position); };
     const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
     volume += glm::dot(a, glm::cross(b, c)) / 6.0;
-    const double area = 0.5 * glm::cross(b - a, c - a).z;  // seen from above
+    const double area = 0.5 * glm::cross(b - a, c - a).z;  // area seen from above
     if (area > 0.0) sheets += 2.0 * area * (a.z + b.z + c.z) / 3.0;
   }
   EXPECT_GT(sheets, 0.0);

@@ -63,7 +63,7 @@ TEST(JumpCue, HasBegunThoughNoFrameHasShownIt) {
   EXPECT_FALSE(cues.begun_ns(999'999'999));
   EXPECT_FALSE(cues.at(9'000'000'000));
   EXPECT_EQ(cues.begun_ns(9'000'000'000), 1'000'000'000);
-  cues.add(event(JumpOffContact, 1'100'000'000));  // waits until the other has been shown
+  cues.add(event(JumpOffContact, 1'100'000'000));  // delayed until the other one has been shown
   EXPECT_EQ(cues.begun_ns(1'399'999'999), 1'000'000'000);
   EXPECT_EQ(cues.begun_ns(9'000'000'000), 1'400'000'000);
 }
@@ -110,7 +110,7 @@ TEST(JumpCue, KeepsTheForceOfTheJumpWhileTheTipMovesOn) {
   off.force_after_n = 0;
   JumpCues cues;
   cues.add(in);
-  cues.add(off);  // shown once the other has been seen
+  cues.add(off);  // delayed until the other one has been seen
   EXPECT_EQ(cue_text(cues.at(1'200'000'000).value(), test::english()), "snap \u22120.41 nN");
   EXPECT_EQ(cue_text(cues.at(1'399'000'000).value(), test::english()), "snap \u22120.41 nN");
   EXPECT_EQ(cue_text(cues.at(1'500'000'000).value(), test::english()), "pull-off \u221210.00 nN");

@@ -27,18 +27,18 @@ struct ContextEnd {
   void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
 };
 
-// What one panel is made of, in texels of a picture with two for each pixel.
+// Measurements of a painted panel, in texels of a picture with two texels per pixel.
 struct Painted {
   ImVec2 low{1e9F, 1e9F}, high{-1e9F, -1e9F};
   glm::vec2 size{0.0F};
-  bool cut = false;              // there is an ellipsis
+  bool cut = false;              // true: a text ends in an ellipsis
   float state_height_px = 0.0F;  // height of the plate around the state's word
-  float letter_px = 0.0F;        // height of its letters, on average
-  float least_em_m = 1.0F;       // smallest letter's em square, on the wall
+  float letter_px = 0.0F;        // mean height of its letters
+  float least_em_m = 1.0F;       // em square of the smallest letter, on the wall
   float largest_em_m = 0.0F;
-  float left_px = 1e9F, right_px = -1e9F;  // ends of the letters
-  float bottom_px = -1e9F;                 // lowest of them
-  bool overlapping = false;                // a large letter and a small one, if it is asked for
+  float left_px = 1e9F, right_px = -1e9F;  // left and right end of all letters
+  float bottom_px = -1e9F;                 // lowest end of all letters
+  bool overlapping = false;                // true: a large letter overlaps a small one, if checked
 
   bool inside(float slack = 1.0F) const {
     return low.x >= -slack && low.y >= -slack && high.x <= size.x + slack && high.y <= size.y + slack;
@@ -94,21 +94,21 @@ class Painter {
   }
 
  private:
-  // Letters are the rectangles that take both directions of the atlas.
+  // Mean height of the letters, which are the rectangles that vary in both directions of the atlas.
   static float mean_letter(const ImDrawList& list) {
     float sum = 0.0F;
     int letters = 0;
     for (int i = 0; i + 3 < list.VtxBuffer.Size; ++i) {
       const ImDrawVert &a = list.VtxBuffer[i], &b = list.VtxBuffer[i + 1], &c = list.VtxBuffer[i + 2];
       if (a.uv.y != b.uv.y || a.uv.x == b.uv.x || b.uv.x != c.uv.x || b.uv.y == c.uv.y) continue;
-      if (c.uv.x > 1.0F) continue;  // a colour grid, whose places are texels
+      if (c.uv.x > 1.0F) continue;  // colour grid, whose places are texels
       sum += c.pos.y - a.pos.y;
       ++letters;
     }
     return letters > 0 ? sum / static_cast<float>(letters) : 0.0F;
   }
 
-  // What letter a rectangle shows is known by its place in the atlas.
+  // Measures the letters; each is recognised by its place in the atlas.
   void measure_letters(const ImDrawList& list, Painted& painted) const {
     const float texel_m = static_cast<float>(millimetre_m_) / fonts_.texels_per_mm;
     struct Letter {
@@ -149,7 +149,7 @@ class Painter {
   double millimetre_m_;
   bool looks_for_overlaps_ = false;
   std::unique_ptr<ImGuiContext, ContextEnd> imgui_;
-  std::map<std::array<float, 4>, float> em_of_height_;  // em of a letter by its height, by its place in the atlas
+  std::map<std::array<float, 4>, float> em_of_height_;  // em size of letters, by height and place in the atlas
   render::CanvasMemory memory_;
 };
 

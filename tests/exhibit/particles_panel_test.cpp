@@ -207,7 +207,7 @@ TEST_F(ParticlesPanel, SaysHowFarThePatternIsAndWhenItIsDone) {
   scene::TipPush push = test::push_of(set_, 0, PushState::Free);
   push.strokes = 7;
   const auto targets = scene::shared_targets(set_);
-  const std::array<std::size_t, 5> order{3, 0, 4, 1, 2};  // whichever particle lies on which target
+  const std::array<std::size_t, 5> order{3, 0, 4, 1, 2};  // any assignment of particles to targets
   for (std::size_t i = 0; i < targets.size(); ++i) {
     scene::ParticlePose& pose = pages_[0].poses[order[i]];
     pose.x_m = targets[i].position.x.si + 24e-9;
@@ -370,7 +370,7 @@ TEST(WordsOfParticles, OfEverySetAreInGerman) {
   std::size_t sets = 0;
   for (const auto& file : std::filesystem::directory_iterator(support::source("assets/particles"))) {
     const scene::ParticleSet set = scene::load_particle_set(file.path().string()).value();
-    if (set.ink != nullptr) continue;  // not on the wall
+    if (set.ink != nullptr) continue;  // set not shown on the wall
     ++sets;
     for (const std::string& word : words_of(set)) EXPECT_NE(german.word(word), word) << file.path();
   }

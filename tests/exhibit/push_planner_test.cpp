@@ -90,7 +90,7 @@ TEST_F(Planner, SkipsThePlaceWhereTheSphereLies) {
 TEST_F(Planner, HasEightWaysOfThreeRhoWithoutAPattern) {
   set_.targets.clear();
   PushPlanner planner(set_);
-  planner.next_place(now());  // begins with a sphere, too
+  planner.next_place(now());  // also begins with a sphere
   ASSERT_EQ(planner.plan().particle, 0);
   const double rho_m = physics::side_contact(set_.setup.tip, physics::Length(25e-9), physics::Length(0.0)).distance.si;
   for (int i = 0; i < 9; ++i) {

@@ -123,7 +123,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
                     .highlighted = false,
                     .placement = stage.wall_scene.places().note()});
   for (const render::Label& label : labels) expect_whole(label, label.placement, label.text.c_str());
-  constexpr double kRulerM = 0.080;  // at true scale, whatever the screen
+  constexpr double kRulerM = 0.080;  // true scale on every screen
   if (stage.screen.width_m() < kRulerM) return;
   render::FrameState pattern;
   show_calibration(stage.screen, scene::StereoMode::SideBySide, 0.063, phrases, pattern);
@@ -139,7 +139,7 @@ TEST_P(ReadableWalls, CutNoWordAndShowTheStateOnPicturesOfEverySizeInEveryLangua
   const support::ScratchFolder folder;
   const std::string pseudo = folder.write("pseudo.toml", test::pseudo_language());
   for (const auto& [language, own] : {std::pair<std::string, std::string>{"en", ""}, {"de", ""}, {"en", pseudo}}) {
-    if (!support::deep() && own.empty()) continue;  // the pseudo-locale has the longest words
+    if (!support::deep() && own.empty()) continue;  // covered by the pseudo-locale, which has the longest words
     ExhibitFiles files;
     files.assets_dir = support::source("assets");
     files.wall = fmt::format("{}/walls/{}.toml", files.assets_dir, GetParam());
@@ -192,7 +192,7 @@ TEST_P(ReadableWalls, HaveLargerLettersWhereTheyAreAskedFor) {
 
 // The wand of the mouse covered the words of the tab above it.
 TEST(MouseGrip, IsSeenBelowTheTab) {
-  constexpr double kHandleM = 0.27;  // from the grip to the end, away from the target
+  constexpr double kHandleM = 0.27;  // distance from the grip to the end that points away from the target
   ExhibitFiles files;
   files.assets_dir = support::source("assets");
   files.aspect = 16.0 / 9.0;

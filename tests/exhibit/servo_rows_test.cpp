@@ -35,7 +35,7 @@ TEST(ServoRows, TellLimitsScaleAndPunctualityWithTheirUnits) {
   timing.rate_hz = 1000.0;
   timing.ticks = 1000;
   timing.missed = 3;
-  timing.wake_us[37] = 1000;  // from 37 to below 38
+  timing.wake_us[37] = 1000;  // bin from 37 to 38
   timing.wake_max_us = 38;
   const std::string all = text(tip, timing);
   EXPECT_THAT(all, HasSubstr("Scale of the hand: 3.57 mm/nm, 1.43 N/nN (compressed"));

@@ -23,23 +23,23 @@
 namespace afm::exhibit {
 namespace particle_task_test {
 
-constexpr int kStepTicks = 20;  // a command of the hand
+constexpr int kStepTicks = 20;  // ticks per command of the hand
 constexpr double kStepS = 1e-3 * kStepTicks;
 constexpr double kDelayS = 0.25;     // delay of the eye
-constexpr double kTremorM = 0.3e-3;  // tremor of the hand, root mean square, each way along the sample
-constexpr double kHeldTremor = 0.5;  // share of the tremor that is left after a step
-constexpr double kSteerPerS = 2.0;   // share of the seen error that the hand corrects
+constexpr double kTremorM = 0.3e-3;  // tremor of the hand along each axis of the sample, root mean square
+constexpr double kHeldTremor = 0.5;  // fraction of the tremor that is left after a step
+constexpr double kSteerPerS = 2.0;   // fraction of the seen error that the hand corrects per second
 constexpr double kPushMPerS = 6e-3;  // speed of the hand
 constexpr double kWayMPerS = 60e-3;
 constexpr double kLowM = 1.6e-3;  // height of the hand while it pushes
 constexpr double kHighM = 16e-3;
-constexpr double kBehindM = 50e-9;  // from the middle of the particle to the tip that comes down behind it
-// a rod
-constexpr double kRodPlace = 0.35;      // place of a push from the middle, in lengths
+constexpr double kBehindM = 50e-9;  // distance from the middle of the particle to the tip that comes down behind it
+// values for a rod
+constexpr double kRodPlace = 0.35;      // distance of a push from the middle, in lengths
 constexpr double kRodHeight = 0.3;      // height of the tip, in radii
-constexpr double kBesideRodM = 100e-9;  // from its axis to the tip that comes down beside it
-constexpr double kNearRodM = 30e-9;     // distance of its ends from the line that the person is content with
-constexpr double kNearM = 10e-9;        // distance from a target that the person is content with
+constexpr double kBesideRodM = 100e-9;  // distance from its axis to the tip that comes down beside it
+constexpr double kNearRodM = 30e-9;     // distance of its ends from the line that satisfies the person
+constexpr double kNearM = 10e-9;        // distance from a target that satisfies the person
 
 inline std::unique_ptr<scene::SharedModel> model_with(const scene::ParticleSet& set, std::uint32_t level) {
   auto model = std::make_unique<scene::SharedModel>(test::paper_model());
@@ -58,7 +58,7 @@ class Person {
     go({0.0, 0.0}, kHighM, 0.5);
   }
 
-  // Pushes what is farthest from its target until all are near, or for so long.
+  // Pushes the particle farthest from its target until all are near, for at most `most_s`.
   void solve(double most_s) {
     for (const double end_s = time_s() + most_s; time_s() < end_s;) {
       rest(0.5);
@@ -73,7 +73,7 @@ class Person {
     rest(1.0);
   }
 
-  // Looks again at every particle that is not measured.
+  // Takes a second look at every particle that is not measured.
   void look() {
     for (std::size_t i = 0; i < set_.particles.size(); ++i) {
       if (recording_.picture->now().known[i] == servo::Known::Measured) continue;
@@ -81,10 +81,10 @@ class Person {
     }
   }
 
-  // Sees nothing and does nothing, as the sample drifts.
+  // Waits without looking, while the sample drifts.
   void wait(double seconds) { recording_.run(static_cast<int>(1e3 * seconds)); }
 
-  // Pushes now one end of the rod, now the other, by what is seen, until both are near the line of the target.
+  // Pushes the ends of the rod in turn, by sight, until both are near the line of the target.
   void lay_rod(double most_s) {
     for (const double end_s = time_s() + most_s; time_s() < end_s;) {
       rest(0.5);
@@ -96,7 +96,7 @@ class Person {
     rest(1.0);
   }
 
-  // Comes down beside the particle and pushes it until it gives, seeing nothing.
+  // Comes down beside the particle and pushes it until it yields, without looking.
   void push_by_feel(std::size_t particle, const glm::dvec2& along, double m_per_s) {
     beside(particle, along);
     double most_n = 0.0;
@@ -110,7 +110,7 @@ class Person {
     rest(1.0);
   }
 
-  // Presses the particle from the middle of the sample, with so much of the felt force, or of that of 1 nN.
+  // Presses the particle from the middle of the sample with `share` of the felt force, or of 1 nN.
   void press(std::size_t particle, double share, double seconds) {
     const glm::dvec2 along = glm::normalize(place(particle));
     beside(particle, along);
@@ -127,9 +127,9 @@ class Person {
     go(at_m_, kHighM, kWayMPerS);
     rest(1.0);
   }
-  double held_n() const { return held_n_; }  // mean
+  double held_n() const { return held_n_; }  // mean held force
 
-  // Pushes the first particle so much of the way to the target, steering.
+  // Pushes the first particle `share` of the way to the target, with steering.
   void push_along_line(double share) {
     const scene::Pattern pattern = scene::shared_pattern_of(set_);
     const glm::dvec2 from_m = place(0);
@@ -137,7 +137,7 @@ class Person {
     rest(1.0);
   }
 
-  bool looks = false;  // again, before each push
+  bool looks = false;  // true: a second look before each push
 
   double time_s() const { return 1e-9 * static_cast<double>(recording_.now_ns); }
   servo::Recording& recording() { return recording_; }
@@ -160,7 +160,7 @@ class Person {
     return glm::dot(rod.middle_m + 0.5 * end * length_m() * rod.along - target(0), left);
   }
 
-  // Once, across the rod, until the end has been seen near the line; the tip is kept at its place along the rod.
+  // Pushes once across the rod, until the end has been seen near the line; the tip keeps its place along the rod.
   void push_end(double end) {
     const double side = off_m(rod(), end) > 0.0 ? 1.0 : -1.0, at_m = kRodPlace * end * length_m();
     const auto away = [&](const Rod& rod) { return side * glm::dvec2(-rod.along.y, rod.along.x); };
@@ -197,7 +197,7 @@ class Person {
     return {pose->x_m, pose->y_m};
   }
 
-  // The particles, or at a level the picture of them.
+  // Particles, or at levels 1 and 2 their picture.
   std::span<const scene::ParticlePage> seen() const {
     return recording_.picture ? recording_.picture->shown() : recording_.pages();
   }
@@ -220,7 +220,7 @@ class Person {
       if (glm::dot(to_m - there_m, along) < kPushMPerS / m_per_m_ * kDelayS) break;
       const glm::dvec2 left = glm::normalize(to_m - there_m), aside(-left.y, left.x);
       const double off_m = glm::dot(at_m_ - m_per_m_ * there_m, aside);
-      if (std::abs(off_m) > m_per_m_ * kBehindM * 0.7) break;  // lost
+      if (std::abs(off_m) > m_per_m_ * kBehindM * 0.7) break;  // lost particle
       step(at_m_ + kStepS * (kPushMPerS * left - kSteerPerS * off_m * aside), kLowM);
       late.push_back(place(particle));
       if (late.size() > delay) late.pop_front();
@@ -256,7 +256,7 @@ class Person {
   std::normal_distribution<double> noise_;
   servo::Recording recording_;
   double m_per_m_ = 0.0;
-  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended place, and the error of the tremor
+  glm::dvec2 at_m_{0.0}, tremor_m_{0.0};  // intended position, and error due to the tremor
   double height_m_ = 0.06;
   double felt_n_ = 0.0, held_n_ = 0.0;
 };

@@ -164,7 +164,7 @@ TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
   const ParticlesNow at_start{.set = &set_, .pages = pages};
   EXPECT_EQ(frame(wall, &at_start).copies.size(), 2U) << "none has moved";
   const glm::dvec2 start_m(pages[0].poses[2].x_m, pages[0].poses[2].y_m), way_m(60e-9, -25e-9);
-  pages[0].poses[1].x_m += 4e-9;  // less than its width shows
+  pages[0].poses[1].x_m += 4e-9;  // displacement too small for its width to show
   pages[0].poses[2].x_m += way_m.x;
   pages[0].poses[2].y_m += way_m.y;
   const ParticlesNow now{.set = &set_, .pages = pages};
@@ -188,7 +188,7 @@ TEST_F(ParticlesOfAWall, HaveAFootprintWhereTheyLayAndDotsFromThere) {
     last_m = glm::length(from_start_m);
   }
   EXPECT_LT(last_m, glm::length(way_m));
-  pages[0].poses[2].x_m += 1.0;  // place as far off as a damaged session may have it
+  pages[0].poses[2].x_m += 1.0;  // displacement as large as in a damaged session
   EXPECT_LE(frame(wall, &now).copies[3].copies.size(), wall.scene().nodes[dots.node].most_copies);
 }
 
@@ -213,7 +213,7 @@ TEST_F(ParticlesOfAWall, HaveALineAndRingsWhereAPushIsPlanned) {
   ASSERT_EQ(ends.copies.size(), 2U);
   EXPECT_LT(glm::distance(place_m(ends.copies[0]), from_m + glm::dvec2(3e-9, 0.0)), 0.1e-9) << "around the sphere";
   EXPECT_LT(glm::distance(place_m(ends.copies[1]), to_m), 0.1e-9);
-  now.plan.to_m[0] = 1e-3;  // as far as a plan may go
+  now.plan.to_m[0] = 1e-3;  // largest length of a plan
   EXPECT_LE(frame(wall, &now).copies[2].copies.size(), wall.scene().nodes[line.node].most_copies);
   now.plan.particle = 77;  // number on another wall
   EXPECT_EQ(frame(wall, &now).copies.size(), 2U);

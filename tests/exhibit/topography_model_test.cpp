@@ -39,7 +39,7 @@ class MeasuredSample : public test::PaperWall {
     }
     std::ofstream(folder_.file("hills.glb"), std::ios::binary)
         << test::gsf_file("XRes = 48\nYRes = 32\nXReal = 3e-6\nYReal = 2e-6\nXYUnits = m\nZUnits = m\n", heights);
-    return folder_.file("hills.glb");  // the name deceives; the first bytes do not
+    return folder_.file("hills.glb");  // misleading name; the first bytes are right
   }
 
   scene::NodeIndex surface(std::size_t material) const {

@@ -65,7 +65,7 @@ class ModelsOfAWall : public test::VulkanTest {
     EXPECT_TRUE(stage) << stage.error().message;
     auto subject = app::wall_subject(*stage, kEyeWidth, app::WallMotion::Tip).value();
     render::FrameState& frame = subject.frames[kFrame];
-    frame.panels.banner.content.scale.clear();  // a metre of another wall shows something else
+    frame.panels.banner.content.scale.clear();  // scale text, which differs on other walls
     auto renderer = make_renderer(subject.scene, subject.drawing);
     renderer.render(frame);
     return renderer.read_eye(scene::Eye::Left);
@@ -137,7 +137,7 @@ Place place_of(const std::string& name, const render::PanelPlacement& panel, con
 void expect_word_off_the_panels(const Stage& stage, const std::string& what) {
   const StagePlace screens = stage_place(stage.wall);
   const scene::Viewer& viewer = stage.wall.viewers.front();
-  const bool on_main = !screens.left;  // the panels are on other screens, or the main one has them
+  const bool on_main = !screens.left;  // panels on other screens, or all on the main one
   for (const auto kind : {physics::EventKind::JumpToContact, physics::EventKind::JumpOffContact}) {
     render::FrameState frame;
     stage.wall_scene.update({.material = 0, .cue = JumpCue{.kind = kind, .force_n = -1e-9F, .age_s = 0.5}}, frame);

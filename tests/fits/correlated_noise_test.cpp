@@ -49,7 +49,7 @@ TEST(CorrelatedNoise, IsFoundAsItWasMadeInSpiteOfTheFit) {
   for (unsigned seed = 0; seed < kRecords; ++seed) {
     const Line line = fitted({0.9}, 120, seed);
     const auto found = noise_coefficients(line.residuals, line.jacobian);
-    double sum = 0.0;  // decides over slow errors, whatever the order
+    double sum = 0.0;  // sum that includes slow errors, whatever the order
     for (const double one : found) sum += one;
     first += sum / kRecords;
   }

@@ -204,7 +204,7 @@ TEST(CoverageOfABootstrap, IsThatOfTheManual) {
       if (fit.bootstrap->modulus_pa.low <= truth_pa && truth_pa <= fit.bootstrap->modulus_pa.high) ++held;
     }
     const double share = static_cast<double>(held) / curves;
-    const double known = noise == Noise::White ? 0.923 : 0.857;  // share of 300 curves
+    const double known = noise == Noise::White ? 0.923 : 0.857;  // fraction of 300 curves
     EXPECT_NEAR(share, known, 3.0 * std::sqrt(known * (1.0 - known) / curves))
         << static_cast<int>(noise) << ": " << share;
   }
@@ -355,7 +355,7 @@ TEST(ElasticFit, OfATiltedBaselineAloneIsNotTrusted) {
   for (const double tilt_n_per_m : {-1e-3, -5e-4, 5e-4, 1e-3}) {
     for (const unsigned seed : {20U, 21U, 22U}) {
       std::vector<Sample> samples = Curves(seed).approach(indenter(Shape::Sphere), 4e3, Noise::White);
-      samples.resize(550);  // before contact
+      samples.resize(550);  // part before contact
       for (Sample& sample : samples) sample.force_n += tilt_n_per_m * sample.z_m;
       FitSetup setup = setup_of(indenter(Shape::Sphere));
       setup.tilt = true;

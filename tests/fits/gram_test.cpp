@@ -18,7 +18,7 @@ constexpr std::size_t kCount = 41, kLate = 18, kUnknowns = 4, kLevelPlace = 2;
 
 // Residuals, two columns that begin late, a tilt, and the level's, which Gram does not ask for.
 struct Curve {
-  std::array<std::vector<double>, kUnknowns + 1> columns;  // by unknown, the residuals last
+  std::array<std::vector<double>, kUnknowns + 1> columns;  // columns by unknown, the residuals last
 
   explicit Curve(unsigned seed) {
     std::mt19937_64 random(seed);

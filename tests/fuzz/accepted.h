@@ -3,7 +3,7 @@
 
 namespace afm::fuzz {
 
-// How many inputs a target has found good so far. replay_main asks, so that no corpus is of files that are refused.
+// Number of inputs accepted by a target so far. Used by replay_main to detect a corpus of rejected files.
 inline int accepted_inputs = 0;
 
 }  // namespace afm::fuzz

@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   std::string text(reinterpret_cast<const char*>(bytes), size);
   if (size > 12 && std::string_view(text).substr(8, 4) == "ARDF") text = with_checksums(std::move(text));
   if (text.starts_with("PK\x03\x04")) text = with_zip_checksums(std::move(text));
-  if (text.starts_with("\x89HDF")) return 0;  // read by a separate program, which corpus/hdf5 covers
+  if (text.starts_with("\x89HDF")) return 0;  // format read by a separate program, which corpus/hdf5 covers
   afm::curves::CurveReading here;
   here.confined = false;
   const auto curve = afm::curves::parse_curve(text, "fuzz", here);

@@ -13,7 +13,7 @@
 // if a point was measured, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(bytes), size);
-  if (text.starts_with("\x89HDF")) return 0;  // converted by a separate program
+  if (text.starts_with("\x89HDF")) return 0;  // format converted by a separate program
   const auto loaded = afm::curves::parse_image(text, "fuzz", {.channel = {}, .confined = false});
   if (!loaded) return 0;
   ++afm::fuzz::accepted_inputs;

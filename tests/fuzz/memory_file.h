@@ -10,7 +10,7 @@
 
 namespace afm::fuzz {
 
-// Bytes as a file that exists only while this lives, for parsers that take a path.
+// Bytes in the form of a temporary file, for parsers that take a path.
 class MemoryFile {
  public:
   MemoryFile(const std::uint8_t* bytes, std::size_t size) : descriptor_(::memfd_create("fuzz", MFD_CLOEXEC)) {

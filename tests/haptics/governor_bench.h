@@ -17,12 +17,12 @@ inline constexpr double kRounding = 1e-12;
 
 inline const SafetyLimits kLimits{.period_ns = kPeriodNs, .force_cap_n = kCapN, .release_height_m = kReleaseHeightM};
 
-// A law of boundless stiffness may leak any energy: what a test here does to a hand does not concern the
-// passivity observer.
+// Stiffness beyond every limit: a law of this stiffness may leak any energy, so that the passivity observer stays
+// inactive.
 inline constexpr double kBoundlessStiffness = 1e12;
 inline const GovernorInput kStart{.time_ns = 1'000'000'000, .law_energy = {.stiffness_n_per_m = kBoundlessStiffness}};
 
-// A governor and the input of the next tick, which tests change.
+// A governor and the input of its next tick, which tests change.
 class Governor : public testing::Test {
  protected:
   double step(std::int64_t elapsed_ns = kPeriodNs) {
@@ -37,7 +37,7 @@ class Governor : public testing::Test {
     for (int i = 0; i < count; ++i) step();
   }
 
-  // Disarmed, with everything in place for Turn-On.
+  // Makes the governor disarmed and ready for Turn-On.
   void lift() {
     input_.hand_height_m = 0.060;
     input_.hand_position_m = glm::dvec3(0.0, 0.060, 0.0);
@@ -59,7 +59,7 @@ class Governor : public testing::Test {
     ASSERT_EQ(governor_.state(), scene::ServoState::Running);
   }
 
-  // Running, with `force_n` reached.
+  // Makes the governor Running, with `force_n` reached.
   void hold(double force_n) {
     arm();
     input_.phase = physics::Phase::Attached;
@@ -69,7 +69,7 @@ class Governor : public testing::Test {
     ASSERT_NEAR(step(), force_n, kRounding);
   }
 
-  // Ticks until the command is exactly zero.
+  // Number of ticks until the command is exactly zero.
   int ticks_to_zero() {
     for (int i = 1; i < 10'000; ++i) {
       if (step() == 0.0) return i;

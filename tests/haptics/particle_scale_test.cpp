@@ -68,7 +68,7 @@ TEST(ParticleScale, KeepsThePullOfATipThatSticksWithinTheDevice) {
   const double pull_n = 3.598997214e-09 / std::cos(std::numbers::pi / 12.0) * 0.02 / 0.05;
   EXPECT_GT(pull_n * plain.hand_n_per_n, haptics::force_cap_n(kOmni));
   EXPECT_LE(pull_n * sticky.hand_n_per_n, haptics::force_cap_n(kOmni) * (1.0 + 1e-6));
-  particles.species[0].scatter_seed = 7;  // some contacts hold more
+  particles.species[0].scatter_seed = 7;  // scatter by which some contacts hold more
   EXPECT_NEAR(haptics::particle_scale(particles, kOmni)->hand_n_per_n, 0.5 * sticky.hand_n_per_n,
               1e-9 * sticky.hand_n_per_n);
   EXPECT_GT(sticky.clear_z_m, plain.clear_z_m + pull_n * sticky.softened_upwards / 1.0);

@@ -175,7 +175,7 @@ class Loop {
  private:
   std::int64_t period_ns_;
   std::unique_ptr<ContactModel> model_;
-  SampleAxes sample_;  // level
+  SampleAxes sample_;  // level sample
   SafetyGovernor governor_;
   std::array<glm::dvec3, 6> history_{};  // oldest entry 5 ms old at 1 kHz
   std::size_t ticks_ = 0;

@@ -9,10 +9,10 @@
 #include "servo_bench.h"
 #include "support/particles/gold_particles.h"
 
-// The servo among particles: a simulated hand that pushes them.
+// The servo among particles, pushed by a simulated hand.
 namespace afm::test {
 
-// One particle on the way of the hand, another beside it.
+// Model with one particle in the path of the hand, and another beside it.
 inline scene::SharedModel two_particles() {
   scene::SharedModel model = paper_model();
   model.particles = particles_at({{-80e-9, 0.0}, {80e-9, 100e-9}});
@@ -24,7 +24,7 @@ class PushingBench : public ServoBench {
   explicit PushingBench(double rate_hz = 1000.0, const scene::SharedModel& model = two_particles())
       : ServoBench(model, rate_hz) {}
 
-  // To a place on the sample, at a height above the contact point.
+  // Sends the hand to a place on the sample, at a height above the contact point.
   void send(double x_m, double y_m, double height_m, double seconds) {
     renderer.store(scene::HandScript{.target_m = {x_m, height_m, -y_m}, .duration_s = seconds, .revision = ++script});
   }
@@ -33,7 +33,7 @@ class PushingBench : public ServoBench {
     while (state().acknowledged.hand_script != script) tick();
   }
 
-  // Lifts, goes before the row, puts the tip down.
+  // Lifts, moves in front of the row, and puts the tip down.
   void put_down() {
     arm(kMica, scene::ScaleMode::Particles);
     go(-0.030, 0.0, 0.030, 0.4);
@@ -55,7 +55,7 @@ class PushingBench : public ServoBench {
         std::count_if(events.begin(), events.end(), [&](const scene::TipEvent& e) { return e.kind == kind; }));
   }
 
-  // Takes the force away and lifts; the sample stays.
+  // Removes the force and lifts; the sample stays.
   void release() {
     renderer.store(scene::Selection{.material = kMica,
                                     .revision = ++selection,
@@ -65,7 +65,7 @@ class PushingBench : public ServoBench {
     run(0.3);
   }
 
-  // One push to a place on the row, and the hand lifted.
+  // Pushes once to a place on the row, then lifts the hand.
   void push_to(double x_m) {
     put_down();
     go(x_m, 0.0, 0.001, 1.0);

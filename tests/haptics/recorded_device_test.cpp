@@ -83,7 +83,7 @@ TEST(RecordedDevice, GivesTheSameForcesAgainBitForBit) {
     ASSERT_EQ(first[i].servo_state, second[i].servo_state) << i;
     strongest_n = std::max(strongest_n, std::abs(second[i].hand_force_n));
   }
-  EXPECT_GT(strongest_n, 1.5);  // a whole cycle was felt
+  EXPECT_GT(strongest_n, 1.5);  // force of a whole cycle
   EXPECT_TRUE((*replay)->finished());
 }
 

@@ -47,7 +47,7 @@ TEST(GovernorFuzz, StaysFiniteWithinCapAndSlewWhateverComesIn) {
   glm::dvec3 last_n(0.0);
   int in_force = 0;
   for (int i = 0; i < 1'000'000; ++i) {
-    const bool calm = (i / 2000) % 2 == 0;  // long enough to arm
+    const bool calm = (i / 2000) % 2 == 0;  // phases long enough to arm
     input.time_ns += calm ? kPeriodNs : static_cast<std::int64_t>(random() % 4'000'000) - 10'000;
     if (random() % 5000 == 0) input.time_ns += 30'000'000;
     input.hand_position_m = calm ? glm::dvec3(0.0) : glm::dvec3(any_double(random) * 1e-3);

@@ -213,7 +213,7 @@ TEST_F(Governor, TripsAtAHandThatFlies) {
   input_.wanted_force_n = glm::dvec3(0.0, 1.0, 0.0);
   int ticks = 0;
   while (governor_.state() == ServoState::Running && ++ticks < 100) {
-    input_.hand_position_m.y += 2e-3;  // 2 m/s
+    input_.hand_position_m.y += 2e-3;  // step at 2 m/s
     step();
   }
   EXPECT_EQ(governor_.state(), ServoState::Fault);
@@ -235,7 +235,7 @@ TEST_F(Governor, BrakesTheHandAfterPullOffAndStopsBrakingAfter100Ms) {
   arm();
   input_.pulled_off = true;
   for (int i = 0; i < 99; ++i) {
-    input_.hand_position_m.y += 0.2e-3;  // 0.2 m/s upwards
+    input_.hand_position_m.y += 0.2e-3;  // step at 0.2 m/s upwards
     step();
     input_.pulled_off = false;
   }

@@ -25,7 +25,7 @@ using afm::test::rough_surface;
 
 constexpr double kRadius = 50e-9;
 constexpr double kAnyCurvature = std::numeric_limits<double>::infinity();
-constexpr double kGentle = 0.1e9;  // 1/m: limit for a hand of 400 N/m
+constexpr double kGentle = 0.1e9;  // limit in 1/m for a hand of 400 N/m
 
 double coordinate(const SharedHeightField& field, std::uint32_t index) {
   return (index - 0.5 * (field.columns - 1)) * field.spacing_m;

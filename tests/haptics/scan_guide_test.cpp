@@ -31,7 +31,7 @@ constexpr double kTickS = 1e-3;
 struct Hand {
   glm::dvec3 place_m{0.0};
   glm::dvec3 speed_m_per_s{0.0};
-  double given_j = 0;  // given by the spring
+  double given_j = 0;  // energy given by the spring
 
   void move(const glm::dvec3& force_n, double rubbing_n = 0.0) {
     constexpr double kMassKg = 0.12, kArmNSPerM = 1.0;
@@ -85,7 +85,7 @@ TEST(ScanGuide, LeadsAHandAlongLinesAtSixtyMillimetresASecond) {
     Hand hand;
     double farthest_m = 0;
     for (std::int64_t tick = 0; tick < 10'000; ++tick) {
-      const double way_m = std::fmod(0.06 * kTickS * static_cast<double>(tick / 16 * 16), 0.12);  // steps of a frame
+      const double way_m = std::fmod(0.06 * kTickS * static_cast<double>(tick / 16 * 16), 0.12);  // steps of one frame
       const glm::dvec3 target_m(way_m < 0.06 ? way_m - 0.03 : 0.09 - way_m, 0.0, 0.0);
       const ScanGuide::Pull pull = guide.step(input_of(hand.place_m, target_m, tick));
       hand.move(pull.force_n - ScanGuide::kDampingNSPerM * hand.speed_m_per_s, rubbing_n);
@@ -198,7 +198,7 @@ TEST(ScanOfTheHand, LeadsOnlyWithTurnOnHeldAndLetsGoWithIt) {
   bench.run_with(3.0, [&] { return bench.led(5.0); });
   EXPECT_EQ(bench.state().led, 1U);
   EXPECT_EQ(bench.state().servo_state, afm::scene::ServoState::Running);
-  EXPECT_GT(bench.hand_force_n(), 0.4);  // the simulated hand holds its position
+  EXPECT_GT(bench.hand_force_n(), 0.4);  // force on the simulated hand, which holds its position
   EXPECT_LT(bench.hand_force_n(), ScanGuide::kMostForceN + 0.1);
   EXPECT_LT(bench.state().safety.excess_energy_j, PassivityObserver::kToleranceJ);
   bench.aim(ServoBench::kTop, 0.0, false);

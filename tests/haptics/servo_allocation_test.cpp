@@ -143,7 +143,7 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItPushesAParticle) {
   int held = 0, slid = 0;
   for (int tick = 0; tick < 2900; ++tick) {
     if (tick == 2200) send(0.010, 0.060, 0.3);
-    if (tick == 2600) {  // the other tool
+    if (tick == 2600) {  // choice of the other tool
       bench.settings = {.tool = afm::scene::PushTool::Grip};
       bench.choose(afm::test::kMica, afm::scene::ScaleMode::Particles);
     }
@@ -180,7 +180,7 @@ TEST(ServoTick, NeitherAllocatesNorLocksNorThrowsWhileItScratchesASoftSample) {
   bench.run(0.5);
   send(-0.015, -0.010, 0.6);
   bench.run(0.7);
-  send(0.040, -0.010, 0.6);  // some of it too fast
+  send(0.040, -0.010, 0.6);  // partly too fast
   int marked = 0, raised = 0;
   for (int tick = 0; tick < 2600; ++tick) {
     if (tick == 650) send(-0.030, -0.010, 1.4);

@@ -17,19 +17,19 @@
 
 namespace afm::test {
 
-// The value, or an exception that fails the test with the error's line.
+// Value of a result, or an exception that fails the test with the error's line.
 template <class T>
 T required(core::Result<T> result) {
   if (!result) throw std::runtime_error(result.error().message);
   return std::move(*result);
 }
 
-// The events of a cycle with a material of the paper's, by its equations.
+// Events of a cycle with one of the paper's materials, by its equations.
 inline physics::ApproachRetractEvents calculated(std::int32_t material) {
   return physics::approach_retract_events(paper_model().materials[static_cast<std::size_t>(material)].contact);
 }
 
-// A contact model as the servo makes it, with a scale to itself; `drawn` null for a plane. Throws as required() does.
+// Contact model as built by the servo, with its own scale; `drawn` null for a plane. Throws like required().
 inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContact& material,
                                                        const scene::FeltHeights& drawn = {},
                                                        std::int64_t period_ns = 1'000'000) {
@@ -39,7 +39,7 @@ inline std::unique_ptr<haptics::ContactModel> model_of(const scene::SharedContac
   return required(haptics::ContactModel::create(material, 0, tables, drawn, common, omni, period_ns));
 }
 
-// The servo, the simulated hand and the renderer's side of the segment, in time that only tick() moves.
+// The servo, the simulated hand and the renderer's side of the segment, in time advanced only by tick().
 class ServoBench {
  public:
   explicit ServoBench(const scene::SharedModel& model = paper_model(), double rate_hz = 1000.0,
@@ -50,7 +50,7 @@ class ServoBench {
         device(glm::dvec3(0.0, kTop, 0.0), {}, flaws),
         loop(required(haptics::ServoLoop::create(segment, device, {.rate_hz = rate_hz, .max_force_n = max_force_n}))) {}
 
-  // One tick `late_ns` after its time.
+  // Runs one tick `late_ns` after its time.
   void tick(std::int64_t late_ns = 0) {
     if (heartbeats) {
       renderer.store(scene::RendererHeartbeat{.time_ns = now_ns,
@@ -81,7 +81,7 @@ class ServoBench {
     loop->edits().build();
   }
 
-  // Sends other parameters for a material, and another curve if it has one, and lets the builder work.
+  // Sends other parameters for a material, and another curve if it has one, and runs the builder.
   void edit(std::int32_t material, const scene::SharedContact& parameters,
             const scene::SharedMeasuredCurve& curve = {}) {
     renderer.store(scene::MaterialEdit{.material = parameters, .revision = ++edits, .curve = curve},
@@ -97,7 +97,7 @@ class ServoBench {
                                      .turn_on_pressed = pressed ? 1U : 0U});
   }
 
-  // Aims and waits until the path has been played.
+  // Aims, and waits until the path has been played.
   void move(double height_m, double seconds) {
     aim(height_m, seconds);
     while (state_or_default().acknowledged.hand_script != script) tick();
@@ -136,8 +136,8 @@ class ServoBench {
   std::int64_t now_ns = 1'000'000'000;
   bool heartbeats = true;
   bool unseen = false;
-  scene::PushSettings settings{};  // sent with every choice
-  std::uint32_t taken_back = 0;    // orders to take a push back, and to put all particles back
+  scene::PushSettings settings{};  // settings sent with every choice
+  std::uint32_t taken_back = 0;    // numbers of requests to take a push back, and to put all particles back
   std::uint32_t put_back = 0;
   std::uint64_t frame = 0;
   std::uint32_t selection = 0;

@@ -369,7 +369,7 @@ TEST(ServoLoop, CutsTheForceInTheTickThatHearsStop) {
   bench.heartbeats = true;
   bench.run(1.0);
   EXPECT_EQ(bench.state().servo_state, ServoState::Fault);
-  bench.aim(ServoBench::kTop, 0.3, true);  // acknowledges
+  bench.aim(ServoBench::kTop, 0.3, true);  // acknowledgement of the fault
   bench.run(0.5);
   EXPECT_EQ(bench.state().servo_state, ServoState::Disarmed);
   bench.aim(ServoBench::kTop, 0.0);

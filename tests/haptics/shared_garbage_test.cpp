@@ -80,7 +80,7 @@ void write_all(ServoBench& bench, Garbage& garbage) {
                                         .hand = garbage.coin() ? ScanHand::Led : ScanHand::Scans,
                                         .feedback = 1}));
     RendererHeartbeat heartbeat = garbage.flipped(RendererHeartbeat{});
-    heartbeat.leaving &= ~1U;  // leaving, Stop and an unseen picture are accepted
+    heartbeat.leaving &= ~1U;  // bit cleared, since leaving, Stop and an unseen picture are accepted
     heartbeat.stop &= ~1U;
     heartbeat.unseen &= ~1U;
     side.store(heartbeat);

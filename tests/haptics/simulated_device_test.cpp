@@ -115,7 +115,7 @@ TEST(FlawedHand, ReportsItsPlaceInStepsAndLate) {
 
 TEST(FlawedHand, StaysWhereFrictionHoldsItAgainstItsAim) {
   SimulatedDevice device(glm::dvec3(0.0), {}, {.friction_n = 0.26});
-  device.follow(jump_to(0.001));  // the grip pulls with 0.2 N
+  device.follow(jump_to(0.001));  // pull of the grip with 0.2 N
   for (int i = 0; i < 1000; ++i) EXPECT_NEAR(device.read(i * kMs).position_m.y, 0.0, 1e-6);
   device.follow({.target_m = {0.0, 0.010, 0.0}, .duration_s = 0.0, .revision = 2});  // pull of 2 N
   double rests_at = 0;

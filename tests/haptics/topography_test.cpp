@@ -38,7 +38,7 @@ afm::physics::ApproachRetractEvents calculated(std::int32_t material) {
 
 class Topography : public testing::TestWithParam<std::tuple<std::int32_t, ScaleMode>> {
  protected:
-  static constexpr double kStepM = 20e-6;  // motion of a hand in a tick
+  static constexpr double kStepM = 20e-6;  // motion of a hand per tick
 
   const std::int32_t material_ = std::get<std::int32_t>(GetParam());
   const std::unique_ptr<afm::scene::SharedModel> model_ = std::make_unique<afm::scene::SharedModel>(rough_model());

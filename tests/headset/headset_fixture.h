@@ -69,12 +69,12 @@ class HeadsetTest : public testing::Test {
     runtime_.reset();
   }
 
-  // A turn in which the clock goes on as long as anything is waited for.
+  // Runs a turn in which the clock advances during every wait.
   render::Headset::Turn turn() {
     return headset_->next_turn([this] { wait_on(); });
   }
 
-  // Draws the next frame that the runtime asks for; nothing if it asks for none in 20 turns.
+  // Draws the next frame requested by the runtime; empty if it requests none in 20 turns.
   std::optional<std::array<render::HeadsetEye, 2>> draw_next() {
     for (int i = 0; i < 20; ++i) {
       if (turn() != render::Headset::Turn::Frame) continue;
@@ -110,8 +110,8 @@ class HeadsetTest : public testing::Test {
   render::Validation validation_ = render::Validation::On;
   HandClock clock_;
   int beats_ = 0;
-  int lends_after_beats_ = 0;  // 0: never
-  bool shown_ = false;         // newest drawing of draw_next()
+  int lends_after_beats_ = 0;  // number of heartbeats before images are lent; 0: never
+  bool shown_ = false;         // true: newest frame of draw_next() shown
   TestScene scene_ = make_test_scene();
   render::FrameState frame_ = full_frame(scene_);
   scene::HeadPose room_from_floor_{.position_m = {0.0, -1.6, 2.5}};  // the test scene's wall is before its origin

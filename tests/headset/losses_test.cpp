@@ -180,7 +180,7 @@ TEST_F(HeadsetLosses, ARuntimeThatLendsNoImageIsWaitedForWithBeatsAndNotedAsUnse
 }
 
 TEST_F(HeadsetLosses, ANameThatIsNoTextIsPrintedSafely) {
-  script().name = "\x1b[2J" + std::string(XR_MAX_SYSTEM_NAME_SIZE, 'x');  // without an end
+  script().name = "\x1b[2J" + std::string(XR_MAX_SYSTEM_NAME_SIZE, 'x');  // name without an end
   connect();
   EXPECT_EQ(runtime_->headset_name().find('\x1b'), std::string::npos);
   EXPECT_LE(runtime_->headset_name().size(), XR_MAX_SYSTEM_NAME_SIZE + 2U);

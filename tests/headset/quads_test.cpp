@@ -92,7 +92,7 @@ class HeadsetQuads : public HeadsetTest {
   int acquired_in_a_frame() {
     log().calls.clear();
     EXPECT_TRUE(draw_next());
-    return count("xrAcquireSwapchainImage") - 2;  // colours and depth of the eyes
+    return count("xrAcquireSwapchainImage") - 2;  // acquisitions without those for colours and depth of the eyes
   }
 };
 
@@ -189,7 +189,7 @@ TEST_F(HeadsetQuads, AreNoneOfThePanelsThatSomethingMayHide) {
   ASSERT_THAT(quads(), SizeIs(2));
   expect_at(quads()[0], frame_.panels.data.placement);
   expect_eyes_without({&frame_.panels.data.placement, &frame_.panels.banner.placement});
-  frame_.room_from_node[scene_.gold][3].z = -1.0;  // behind it
+  frame_.room_from_node[scene_.gold][3].z = -1.0;  // place behind it
   ASSERT_TRUE(draw_next());
   EXPECT_THAT(quads(), SizeIs(3));
   frame_.labels.push_back(

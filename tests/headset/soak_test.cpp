@@ -16,7 +16,7 @@ namespace soak_test {
 using render::Headset;
 
 constexpr int kActions = 400;                // some 10 s
-constexpr double kMostGrowth_bytes = 8'000;  // per action; one kept eye image is 200 kB
+constexpr double kMostGrowth_bytes = 8'000;  // per action; one leaked eye image is 200 kB
 
 class HeadsetSoak : public HeadsetTest {
  protected:

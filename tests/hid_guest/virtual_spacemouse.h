@@ -27,7 +27,7 @@ inline constexpr std::array<std::uint8_t, 82> kSpaceMouseDescriptor{
     0xC0, 0xA1, 0x02, 0x85, 0x03, 0x05, 0x09, 0x19, 0x01, 0x29, 0x02, 0x15, 0x00, 0x25, 0x01, 0x35,
     0x00, 0x45, 0x01, 0x75, 0x01, 0x95, 0x02, 0x81, 0x02, 0x95, 0x0E, 0x81, 0x03, 0xC0, 0xC0};
 
-// A cap that the kernel takes for plugged in, as long as this lives (drivers/hid/uhid.c).
+// A cap that the kernel treats as plugged in during the object's lifetime (drivers/hid/uhid.c).
 class VirtualSpaceMouse {
  public:
   VirtualSpaceMouse(std::uint32_t vendor, std::uint32_t product, const std::string& name)
@@ -39,7 +39,7 @@ class VirtualSpaceMouse {
     std::memcpy(create.name, name.c_str(), std::min(name.size() + 1, sizeof create.name));
     std::memcpy(create.rd_data, kSpaceMouseDescriptor.data(), kSpaceMouseDescriptor.size());
     create.rd_size = static_cast<std::uint16_t>(kSpaceMouseDescriptor.size());
-    create.bus = 3;  // USB
+    create.bus = 3;  // bus number of USB
     create.vendor = vendor;
     create.product = product;
     send(event);

@@ -236,10 +236,10 @@ TEST(Dtrack, RefusesWhatContradictsItself) {
            "fr -1\n",
            "fr 1 2\n",
            "fr 99999999999\n",
-           "fr 1\n6d 2 " + body,                                            // fewer than it says
+           "fr 1\n6d 2 " + body,                                            // fewer bodies than announced
            "fr 1\n6d 1 " + body + body,                                     // more bodies than announced
            "fr 1\n6d 1 [-1 1.000][1 2 3 0 0 0]" + kIdentity,                // negative body number
-           "fr 1\n6d 1 [64 1.000][1 2 3 0 0 0]" + kIdentity,                // and beyond the last
+           "fr 1\n6d 1 [64 1.000][1 2 3 0 0 0]" + kIdentity,                // body number beyond the last
            "fr 1\n6d 1 [0 1.000][1 nan 3 0 0 0]" + kIdentity,               // NaN
            "fr 1\n6d 1 [0 inf][1 2 3 0 0 0]" + kIdentity,                   //
            "fr 1\n6d 1 [0 1.000][1 2 3 0 0 0][1 0 0 0 1 0 0 0 -1]",         // reflection

@@ -173,7 +173,7 @@ Report joycon_report() {
   }
   for (std::size_t i = 0; i < 3; ++i) {
     report[13 + 12 * i + 5] = 0x10;  // 4096 along its z
-    report[19 + 12 * i + 4] = 100;   // about its z
+    report[19 + 12 * i + 4] = 100;   // 100 about its z
   }
   return report;
 }

@@ -78,10 +78,10 @@ TEST(MotionPlus, TurnsAboutTheWandsAxesInBothRanges) {
   const auto expect_near = [](const glm::dvec3& a, const glm::dvec3& b) {
     for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(a[axis], b[axis], 1e-12);
   };
-  expect_near(rate("00 00 00 93 82 82"), {0.0, slow, 0.0});  // to the left
+  expect_near(rate("00 00 00 93 82 82"), {0.0, slow, 0.0});  // rotation to the left
   expect_near(rate("00 00 00 91 82 82"), {0.0, fast, 0.0});
-  expect_near(rate("00 00 00 83 92 82"), {0.0, 0.0, slow});   // counterclockwise for the hand
-  expect_near(rate("00 00 00 83 82 92"), {-slow, 0.0, 0.0});  // downwards
+  expect_near(rate("00 00 00 83 92 82"), {0.0, 0.0, slow});   // counterclockwise rotation for the hand
+  expect_near(rate("00 00 00 83 82 92"), {-slow, 0.0, 0.0});  // downward rotation
   expect_near(rate("00 00 00 82 82 72"), {fast, 0.0, 0.0});
 }
 
@@ -113,7 +113,7 @@ TEST(MotionPlus, IsWokenWhenTheRemoteOpensAndWheneverItsPlugChanges) {
 
 TEST(Wiimote, HandsEachOfItsButtonsOn) {
   struct {
-    unsigned raw;  // 256 times the second byte and the first
+    unsigned raw;  // second byte times 256 plus the first
     WandButton button;
   } constexpr kRows[]{{0x0800, WandButton::Select},
                       {0x0400, WandButton::Grab},

@@ -88,7 +88,7 @@ TEST(Navigation, ScalesAboutTheHandWhereItIsTracked) {
   WandState wand = pointed_wand(bit(WandButton::Scale));
   navigation.update(wand, kFrameS, false);
   const glm::dvec3 hand = wand.position_m;
-  wand.position_m.z += 0.3;  // towards oneself: the ray looks along -z
+  wand.position_m.z += 0.3;  // motion towards oneself, since the ray looks along -z
   navigation.update(wand, kFrameS, false);
   EXPECT_NEAR(navigation.scale(), std::exp(1.0), 1e-12);
   EXPECT_LT(glm::distance(moved(navigation, hand), hand), kExactM);

@@ -44,7 +44,7 @@ TEST_P(HeldBase, GoesThroughTheCycleThatTouchafmComputes) {
   const auto cycle = curves::run_curve(instrument.setup(), {}).value();
   std::size_t compared = 0;
   for (const physics::CurveSample& sample : cycle.curve.samples) {
-    if (sample.event) continue;  // a jump's two samples are at its own height
+    if (sample.event) continue;  // jump with both samples at its own height
     ASSERT_TRUE(instrument.set_z(sample.z.si, 1e-6));
     ASSERT_NEAR(instrument.shown_force(), sample.force.si, 1e-15)
         << sample.z.si << (sample.branch == physics::Branch::Approach ? " down" : " up");

@@ -22,8 +22,8 @@ namespace nanonis_functions_test {
 struct Call {
   std::string_view name;
   std::string_view arguments;
-  std::string_view results;  // all, or the beginning and "..."
-  std::size_t blank;         // bytes of zeros in place of the results of a call that is refused
+  std::string_view results;  // all results, or the beginning and "..."
+  std::size_t blank;         // number of zero bytes in place of the results of a refused call
 };
 
 // One after the other, on a level sample: later calls see what earlier ones have set.

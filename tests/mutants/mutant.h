@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <type_traits>
 
-// what an edit may well be guilty of
+// warnings that an edit may well cause
 #pragma GCC diagnostic ignored "-Wparentheses"
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wfloat-conversion"
@@ -33,9 +33,9 @@
 #pragma GCC diagnostic ignored "-Wdiv-by-zero"
 #pragma GCC diagnostic ignored "-Wshadow"
 
-// What scripts/drawn_mutants.py puts into a copy of the sources, so that one build holds many edits: each is asleep
-// unless the environment names it by AFM_MUTANT=<number>. The file that AFM_MUTANT_REACHED names gets a mark at the
-// number of each edit that the program comes by. Nothing else includes this.
+// Code that scripts/drawn_mutants.py puts into a copy of the sources, so that one build holds many edits. Each sleeps
+// unless the environment names it by AFM_MUTANT=<number>. The file named by AFM_MUTANT_REACHED gets a mark at the
+// number of each edit that the program reaches. Only such copies include this.
 namespace afm_mutants {
 
 inline constexpr int kMarks = 4096;
@@ -60,10 +60,10 @@ inline const State& state() {
   return state;
 }
 
-// at the start, before a process gives up its rights
+// set at the start, before a process gives up its rights
 inline const State& kAtTheStart = state();
 
-// What the compiler evaluates stays as it was.
+// True for an active edit. Expressions evaluated by the compiler stay unchanged.
 template <int kNumber>
 constexpr bool is_awake() {
   static_assert(kNumber < kMarks);
@@ -79,7 +79,7 @@ constexpr int factor() {
   return is_awake<kNumber>() ? kFactor : 1;
 }
 
-// The same for what was a constant of the compiler, which would evaluate the above while it sleeps.
+// Same for a former constant of the compiler, which would evaluate the expression above while it sleeps.
 template <int kNumber, int kFactor>
 int factor_at_run_time() {
   return is_awake<kNumber>() ? kFactor : 1;

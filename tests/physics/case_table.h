@@ -8,8 +8,8 @@
 
 namespace afm::physics {
 
-// One row of data/physics_cases.csv: what one output must be for given inputs, found by solvers that are not this
-// program's. SI.
+// One row of data/physics_cases.csv: the expected value of one output for given inputs, found by independent
+// solvers. SI.
 struct Case {
   std::string id;                             // "jkr_04"; several rows share it
   std::string name;                           // name of the row's test: "jkr_04_z_out_2", unique in the table
@@ -25,28 +25,28 @@ struct Case {
     return inputs.contains(key) ? input(key) : otherwise;
   }
 
-  // How far a result may lie from `expected_value`: the larger of the two tolerances.
+  // Largest accepted difference of a result from `expected_value`: the larger of the two tolerances.
   double allowed_error(double expected_value) const;
 };
 
-// For the messages of failing tests.
+// Prints a row in the messages of failing tests.
 void PrintTo(const Case& row, std::ostream* out);
 
-// Passes if `actual` is what a row with one number expects, within its tolerance.
+// Passes if `actual` agrees with a row with one number, within its tolerance.
 void expect_agrees(const Case& row, double actual);
 
 // The numbers of a field that holds several.
 std::vector<double> numbers(const std::string& text);
 
-// All rows; throws std::runtime_error if the file is missing or a row is not as expected.
+// All rows; throws std::runtime_error if the file is missing or a row is malformed.
 std::vector<Case> read_cases();
 
-// Which test program answers for a row.
+// Test program that checks a row.
 enum class CaseProgram {
   Cycle,     // cycle_cases: whole cycles and their folds, through lever and support
-  Contact,   // contact_cases: the laws of force by themselves
+  Contact,   // contact_cases: the laws of force alone
   Lever,     // lever_cases: thermal noise, dynamics, beams
-  Friction,  // friction_cases: what holds a tip back sideways
+  Friction,  // friction_cases: lateral forces on the tip
 };
 std::vector<Case> cases_of(CaseProgram program);
 

@@ -41,7 +41,7 @@ class Draw {
 struct Judged {
   CurveFeatures features;
   double error_m = 0.0;  // error of the contact point
-  bool off = false;      // the true one is outside the stated range
+  bool off = false;      // true: true contact point outside the stated range
 };
 
 Judged judged(const Gel& gel, std::mt19937_64& random) {
@@ -81,7 +81,7 @@ TEST(ContactPointOfAGel, IsDoubtfulWhereItIsOffByMoreThanItsRange) {
     if (i % 3 != 1) gel.wave_n = draw.even(10e-12, 150e-12);
     if (i % 2 == 1) gel.outside_m = draw.even(-0.2, 0.05) * gel.depth_m;
     const Judged found = judged(gel, draw.random);
-    if (!found.features.contact_point) continue;  // no push above the waves
+    if (!found.features.contact_point) continue;  // curve without a push above the waves
     const bool is_far = std::abs(found.error_m) > 0.1 * gel.depth_m, doubted = found.features.contact_doubtful;
     off += found.off ? 1 : 0;
     far += is_far ? 1 : 0;

@@ -119,7 +119,7 @@ TEST(ContactPoint, DoesNotDependOnTheOrderOfThePoints) {
   std::vector<CurvePoint> rising(falling.rbegin(), falling.rend()), shuffled(falling);
   std::shuffle(shuffled.begin(), shuffled.end(), random);
   for (const ContactMethodName& each : kContactMethods) {
-    if (each.method == ContactMethod::ZeroForce) continue;  // goes along the recording
+    if (each.method == ContactMethod::ZeroForce) continue;  // method that moves along the recording
     const auto as_recorded = contact_point(falling, each.method);
     ASSERT_TRUE(as_recorded) << each.name;
     for (const auto& other : {rising, shuffled}) {
@@ -133,7 +133,7 @@ TEST(ContactPoint, OfAnyShareOfTheLeverIsFound) {
   for (const double softer : {0.01, 0.1, 1.0, 10.0, 100.0}) {
     std::vector<CurvePoint> points;
     for (int i = 0; i <= 400; ++i) {
-      const double depth = (i - 200) / 200.0;  // tip only, as a share of the largest
+      const double depth = (i - 200) / 200.0;  // depth of the tip, relative to the largest
       const double force = depth > 0.0 ? std::pow(depth, 1.5) : 0.0;
       points.push_back({Length(-1e-6 * (depth + softer * force)), Force(1e-9 * force), Branch::Approach});
     }

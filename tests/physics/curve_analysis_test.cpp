@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(CurveAnalysis, PaperCurve, testing::Values(kMica, kGold
 TEST(CurveAnalysis, FindsNeitherSnapInNorPullOffWithoutAdhesion) {
   const auto found = analyse(hertz(12.0, 0.05_N_per_m, 500_nm, 2_um, 1000));
   ASSERT_TRUE(found.contact_point);
-  EXPECT_NEAR(found.contact_point->si, 0.0, 15e-9);  // 3 % of the indentation
+  EXPECT_NEAR(found.contact_point->si, 0.0, 15e-9);  // tolerance of 3 % of the indentation
   EXPECT_FALSE(found.contact_doubtful);
   EXPECT_FALSE(found.snap_in);
   EXPECT_FALSE(found.pull_off);

@@ -7,7 +7,7 @@
 
 namespace afm::physics {
 
-// The laws that force_law() gives.
+// All laws with a force_law().
 inline std::vector<Law> curve_laws() {
   std::vector<Law> laws;
   for (const LawTraits& row : kLawTable) {

@@ -13,7 +13,7 @@ namespace afm::test {
 
 inline constexpr double kSpring = 0.05, kRadiusM = 5e-6, kPoisson = 0.5, kNoiseN = 5e-12, kContactM = 12.3e-6;
 
-// Hertz 1882.
+// Force of Hertz's law (1882).
 inline double force_n(double modulus_pa, double indentation_m) {
   return 4.0 / 3.0 * modulus_pa / (1.0 - kPoisson * kPoisson) * std::sqrt(kRadiusM) * std::pow(indentation_m, 1.5);
 }
@@ -32,9 +32,9 @@ inline double pushed_n(double modulus_pa, double below_m) {
 struct Gel {
   double modulus_pa = 1e3;
   double depth_m = 1e-6;    // depth of the lever's base at the deepest point
-  double outside_m = 2e-6;  // negative: the approach begins below the contact point
-  double tilt = 0.0;        // N/m
-  double wave_n = 0.0;      // amplitude
+  double outside_m = 2e-6;  // height of the beginning; negative: the approach begins below the contact point
+  double tilt = 0.0;        // slope of the baseline, N/m
+  double wave_n = 0.0;      // amplitude of the baseline's waves
   double period_m = 4e-7;
   double phase = 0.0;
   int points = 2000;

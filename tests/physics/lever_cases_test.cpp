@@ -140,7 +140,7 @@ Passing ramp_down_to(Length height, TipOscillator& tip) {
 double ring_down_value(const Case& row) {
   const LeverDynamics lever = lever_of(row);
   const double damped_period = 1.0 / (lever.resonance.si * std::sqrt(1.0 - 0.25 / std::pow(lever.quality_factor, 2)));
-  constexpr int kSubSteps = 5000;  // a period
+  constexpr int kSubSteps = 5000;  // number per period
   const Length base = 10_um;
   TipOscillator tip(surface_of(row), Stiffness(row.input_or("kc", 0.1)), lever, Time(damped_period / kSubSteps), 1);
   tip.place(base, base + Length(row.input_or("x0", -14e-9)), Velocity());

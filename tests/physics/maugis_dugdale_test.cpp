@@ -276,7 +276,7 @@ TEST(MaugisLaw, BranchesAreContinuousAndTheirDerivativesTrue) {
     const double end = joined.contact_end();
     const double step = 1e-5;
     const double s = end - random.between(0.01, end - branch.first - 0.01);
-    if (joined.is_near_kink(s)) return;  // derivatives jump there
+    if (joined.is_near_kink(s)) return;  // kink with a jump of the derivatives
     const LawPoint before = branch.at(s - step);
     const LawPoint here = branch.at(s);
     const LawPoint after = branch.at(s + step);

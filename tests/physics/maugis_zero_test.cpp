@@ -19,7 +19,7 @@ namespace maugis_zero_test {
 using std::numbers::pi;
 
 constexpr int kContacts = 3'000;
-constexpr double kAsComputed = 1e-9;  // to which the reference numbers were solved
+constexpr double kAsComputed = 1e-9;  // tolerance to which the reference numbers were solved
 
 // Adhesion of a shorter range than van der Waals attraction: a0 = 2.05 nm, z0 = 0.25 nm, lambda = 0.852.
 ContactParameters longer_attraction() {

@@ -8,7 +8,7 @@
 
 namespace afm::physics {
 
-// The paper's mica with the contact of silicon nitride on mica (docs/physics.md), as the reference cases have it:
+// The paper's mica with the contact of silicon nitride on mica (docs/physics.md), as in the reference cases:
 // a0 = 0.3819 nm.
 inline ContactParameters elastic_mica() {
   using namespace literals;
@@ -22,7 +22,7 @@ inline ContactParameters elastic_mica() {
   return mica;
 }
 
-// The law under fixed grips.
+// Tables of the law under fixed grips.
 inline std::shared_ptr<const LawTables> fixed_grips(Law law, ContactParameters contact) {
   contact.spring_constant = Stiffness(std::numeric_limits<double>::infinity());
   return build_law_tables(law, contact);

@@ -57,13 +57,13 @@ TEST(QuantityText, ReadsAndShowsNumbersWithoutAUnit) {
 TEST(QuantityText, ReadsTheUnitsOfOtherPrograms) {
   EXPECT_DOUBLE_EQ(parsed("10pN/nm", kStiffnessUnits), 0.01);
   EXPECT_DOUBLE_EQ(parsed("3 \u00c5", kLengthUnits), 3e-10);
-  EXPECT_DOUBLE_EQ(parsed("3 \u212b", kLengthUnits), 3e-10);  // the sign for the unit
+  EXPECT_DOUBLE_EQ(parsed("3 \u212b", kLengthUnits), 3e-10);  // character for the unit
   EXPECT_DOUBLE_EQ(parsed("3A", kLengthUnits), 3e-10);
   EXPECT_DOUBLE_EQ(parsed("3 Angstrom", kLengthUnits), 3e-10);
   EXPECT_DOUBLE_EQ(parsed("150 meV", kEnergyUnits), 0.15 * 1.602176634e-19);
   EXPECT_DOUBLE_EQ(parsed("500nm/s", kVelocityUnits), 5e-7);
   EXPECT_DOUBLE_EQ(parsed("25 C", kTemperatureUnits), 298.15);
-  EXPECT_DOUBLE_EQ(parsed("25 \u2103", kTemperatureUnits), 298.15);  // the sign for the unit
+  EXPECT_DOUBLE_EQ(parsed("25 \u2103", kTemperatureUnits), 298.15);  // character for the unit
   EXPECT_DOUBLE_EQ(parsed("0.15 eV", kEnergyUnits), 0.15 * 1.602176634e-19);
   EXPECT_DOUBLE_EQ(parsed("25 \u00b0C", kTemperatureUnits), 298.15);
   EXPECT_DOUBLE_EQ(parsed("-5degC", kTemperatureUnits), 268.15);

@@ -14,9 +14,9 @@ class RandomInteraction {
  public:
   explicit RandomInteraction(std::mt19937_64::result_type seed) : random_(seed) {}
 
-  // Between `smallest` and `largest`, evenly in the logarithm.
+  // Random number from `smallest` to `largest`, uniform in the logarithm.
   double between(double smallest, double largest) {
-    // by hand, since the standard leaves to the library what a distribution makes of the same engine
+    // computed here, since standard libraries differ in their distributions from the same engine
     const double unit = static_cast<double>(random_() >> 11) * 0x1.0p-53;
     return smallest * std::pow(largest / smallest, unit);
   }

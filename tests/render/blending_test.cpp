@@ -24,7 +24,7 @@ using scene::EyeOrder;
 using scene::StereoMode;
 
 constexpr unsigned kWallPx = 320, kHighPx = 192;
-constexpr int kFrustumSteps = 2;  // same tolerance as between a tile and a whole wall
+constexpr int kFrustumSteps = 2;  // tolerance as between a tile and a whole wall
 
 // Light of an encoded value, as a projector shows it.
 double light_of(double value, std::optional<double> gamma) {

@@ -83,7 +83,7 @@ TEST_F(Copies, LookLikeNodesOfTheirOwn) {
     const auto options = sized(render::Redraw::Changes, mode);
     const Pair as_copies = draw(crowd.scene, crowd.frame, options);
     const Pair as_nodes = draw(apart, bare_frame(apart), options);
-    constexpr int kRounding = 6;  // the light of a node may be computed per vertex
+    constexpr int kRounding = 6;  // tolerance, since the light of a node may be computed per vertex
     EXPECT_LT(difference(as_copies.left, as_nodes.left, kRounding).share_beyond, 0.004);
     EXPECT_LT(difference(as_copies.right, as_nodes.right, kRounding).share_beyond, 0.004);
   }

@@ -11,7 +11,7 @@ namespace depth_meter_test {
 
 constexpr double kHeadM = 2.5;         // distance from the wall
 constexpr double kHalfWidthM = 1.524;  // half the width of the wall
-constexpr double kToleranceM = 1e-4;   // 32-bit depth
+constexpr double kToleranceM = 1e-4;   // precision of a 32-bit depth
 
 class DepthMeters : public VulkanTest {
  protected:
@@ -76,7 +76,7 @@ TEST_F(DepthMeters, SeesWhatLiesInTheLastColumnAlone) {
 }
 
 TEST_F(DepthMeters, SaysNothingOfAnEmptyPicture) {
-  add_square(9.0, 0.0);  // behind the head
+  add_square(9.0, 0.0);  // square behind the head
   EXPECT_FALSE(measure(small()));
 }
 
@@ -84,7 +84,7 @@ TEST_F(DepthMeters, FollowsEveryFrameThroughResizes) {
   add_square(0.0, 0.0);
   auto renderer = make_renderer(scene_, small());
   render::DepthMeter meter(context_, renderer);
-  meter.measure();  // before the first frame: nothing
+  meter.measure();  // no result before the first frame
   meter.wait();
   EXPECT_FALSE(meter.newest());
   for (const double z : {0.3, -0.4, 1.0}) {

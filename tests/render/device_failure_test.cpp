@@ -47,7 +47,7 @@ TEST_F(DeviceFailureTest, ALostDeviceIsSaidInOneLineAndTakenDownInOrder) {
   auto renderer = render::Renderer::create(context, test_.scene, small());
   ASSERT_TRUE(renderer);
   const auto said = failure_of([&] {
-    frame_.panels.banner.content.guidance += '.';  // unchanged contents are not drawn
+    frame_.panels.banner.content.guidance += '.';  // changed text, since unchanged contents are not drawn
     renderer->render(frame_);
   });
   ASSERT_TRUE(said);

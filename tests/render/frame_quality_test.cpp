@@ -92,8 +92,8 @@ TEST_F(QualityOfFrames, PanelsKeepAllTheirPixels) {
         }
       }
       EXPECT_GT(text, 300U);
-      EXPECT_LE(differing, text / 50);  // at the edge of objects before a panel
-      EXPECT_GT(room, 300U);            // the room is coarser
+      EXPECT_LE(differing, text / 50);  // pixels at the edge of objects before a panel
+      EXPECT_GT(room, 300U);            // pixels of the coarser room
     }
   }
 }

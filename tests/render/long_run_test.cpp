@@ -22,7 +22,7 @@ namespace long_run_test {
 constexpr int kWarmUpRounds = 3;
 constexpr int kRounds = 9;
 constexpr int kFrames = 12;                // per round
-constexpr std::int64_t kLeak_bytes = 200;  // per frame; a leak of this size is detected
+constexpr std::int64_t kLeak_bytes = 200;  // per frame; larger leaks are detected
 
 std::int64_t median(std::array<std::int64_t, kRounds> values) {
   std::sort(values.begin(), values.end());
@@ -61,7 +61,7 @@ class LongRun : public testing::Test {
       frame.panels.banner.content.guidance += std::string(static_cast<std::size_t>(i), '!');
       frame.panels.force.content.curves.front().retract.resize(static_cast<std::size_t>(10 * i));
       frame.panels.data.placement.right_m *= 1.0 - 0.02 * (i % 3);
-      frame.room_from_node[test_.floor][3].z += i % 7;  // past the eyes
+      frame.room_from_node[test_.floor][3].z += i % 7;  // place past the eyes
       if (i % 5 == 0) frame.eyes[1] = frame.eyes[0];
       if (i % 6 == 0) {
         ASSERT_TRUE(renderer.resize(40 + 8 * static_cast<std::uint32_t>(i % 4), 30));

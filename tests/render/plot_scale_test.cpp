@@ -49,7 +49,7 @@ TEST(ThinOut, KeepsTheOrderOfAPathThatTurnsBack) {
   }
   auto thin = points;
   thin_out(thin, 5.0F);
-  ASSERT_GE(thin.size(), 20U);  // each of the 20 columns that are 5 wide, there and back
+  ASSERT_GE(thin.size(), 20U);  // both passes of each of the 20 columns, which are 5 wide
   EXPECT_LT(thin.size(), points.size());
   EXPECT_EQ(thin.front(), points.front());
   EXPECT_EQ(thin.back(), points.back());

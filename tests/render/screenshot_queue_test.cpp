@@ -86,7 +86,7 @@ TEST_F(PictureSaving, NoFrameWaitsForADiskThatHangs) {
     EXPECT_THAT(saver_.collect(), IsEmpty());
   }
   renderer_.wait();
-  EXPECT_EQ(begun, kMost);  // the others are refused, and must wait
+  EXPECT_EQ(begun, kMost);  // accepted requests; the others are refused, and must wait
   EXPECT_FALSE(std::filesystem::exists(file(1)));
 
   std::thread reader([&] {

@@ -124,7 +124,7 @@ TEST_F(ShadowTest, LeavesNoSpecksOnWhatShadowsItself) {
     frame.key_light.shadow_radius_m = 40.0F;
     frame.key_light.shadow_center_m = glm::vec3(0.0F);
     const render::Image shadowed = draw(scene, frame, small(1)).left;
-    frame.key_light.shadow_center_m = glm::vec3(160.0F, 0.0F, -120.0F);  // beside it, as seen from the light
+    frame.key_light.shadow_center_m = glm::vec3(160.0F, 0.0F, -120.0F);  // place beside it, as seen from the light
     const render::Image lit = draw(scene, frame, small(1)).left;
     EXPECT_EQ(difference(shadowed, lit, 2).share_beyond, 0.0) << elevation_deg;
   }

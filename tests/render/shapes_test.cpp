@@ -61,7 +61,7 @@ Growing growing(float loaded, bool reshaped) {
   growing.node = add(growing.scene, "surface", grid(chalk, loaded), lying);
   growing.scene.nodes[growing.node].reshaped = reshaped;
   growing.frame = bare_frame(growing.scene);
-  growing.frame.key_light.map_share = 0.0F;  // a shape casts no shadow
+  growing.frame.key_light.map_share = 0.0F;  // no shadow, since a shape casts none
   return growing;
 }
 
@@ -74,7 +74,7 @@ TEST_F(Shapes, LookLikeMeshesLoadedThus) {
   for (const render::PassMode mode : {render::PassMode::Multiview, render::PassMode::TwoPasses}) {
     const Pair as_shape = draw(shaped.scene, shaped.frame, small(4, mode));
     const Pair as_mesh = draw(loaded.scene, loaded.frame, small(4, mode));
-    constexpr int kRounding = 6;  // the light of a mesh may be computed per vertex
+    constexpr int kRounding = 6;  // tolerance, since the light of a mesh may be computed per vertex
     EXPECT_LT(difference(as_shape.left, as_mesh.left, kRounding).share_beyond, 0.004);
     EXPECT_LT(difference(as_shape.right, as_mesh.right, kRounding).share_beyond, 0.004);
   }

@@ -40,7 +40,7 @@ TEST_F(Storm, OfSizesModesAndSamplesIsDrawnWithoutAMessage) {
     renderer.set_quality({.scale = 0.01 * any(1, 100), .samples = any(0, 1) == 0 ? 1 : samples});
     auto frame = whole;
     if (any(0, 3) == 0) frame.eyes[1] = frame.eyes[0];
-    frame.room_from_node[test_.floor][3].z += any(0, 4);  // past the eyes
+    frame.room_from_node[test_.floor][3].z += any(0, 4);  // place past the eyes
     frame.labels.resize(any(0, static_cast<std::uint32_t>(frame.labels.size())));
     frame.panels.data.placement.right_m *= 0.1 * any(0, 12);
     renderer.render(frame);

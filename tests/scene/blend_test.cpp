@@ -167,7 +167,7 @@ TEST(BlendOfAWall, LeavesAloneWhatOnlyTouchesLiesInsideOrLiesElsewhere) {
     for (const Output& output : wall->outputs) EXPECT_FALSE(output.blend) << output.name;
   };
   unblended(wall_of({{"a", -2, 0, 0.5, 2}, {"b", 0, 2, 0.5, 2}}));
-  unblended(wall_of({{"a", -2, 0.004, 0.5, 2}, {"b", -0.004, 2, 0.5, 2}}));  // tiles, measured badly
+  unblended(wall_of({{"a", -2, 0.004, 0.5, 2}, {"b", -0.004, 2, 0.5, 2}}));  // tiles measured badly
   unblended(wall_of({{"a", -2, 2, 0.5, 2}, {"b", -2, 2, 0.5, 2}}));
   unblended(wall_of({{"a", -2, 2, 0.5, 2.5}, {"inset", -1, 1, 1, 2}}));
   std::string behind = wall_of({kLeft, kRight});

@@ -14,7 +14,7 @@
 
 #include "scene/gltf/gltf_loader.h"
 
-// A small valid model to spoil, and a folder to load it from.
+// A small valid model for tests to damage, and a folder from which to load it.
 namespace afm::scene {
 
 inline void put(std::string& bytes, std::uint32_t value, int size = 4) {
@@ -45,7 +45,7 @@ inline nlohmann::json square_json() {
     "buffers": [{"byteLength": 60}]})");
 }
 
-// Adds bytes as a buffer view of their own; returns its place.
+// Adds bytes as a separate buffer view; returns its index.
 inline std::size_t add_view(nlohmann::json& document, std::string& binary, const std::string& bytes) {
   while (binary.size() % 4 != 0) binary += '\0';
   document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}});
@@ -64,7 +64,7 @@ inline std::size_t add_accessor(nlohmann::json& document, std::size_t view, int 
   return document["accessors"].size() - 1;
 }
 
-// A PNG image of one red pixel, half seen through.
+// A PNG image of one red, half transparent pixel.
 inline std::string tiny_png() {
   constexpr unsigned char kBytes[]{0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48,
                                    0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x06, 0x00, 0x00,

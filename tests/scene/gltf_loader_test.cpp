@@ -61,8 +61,8 @@ TEST_F(GltfLoader, ReadsIndicesOfEveryWidthAndNone) {
 TEST_F(GltfLoader, ReadsNormalsAndColours) {
   json document = square_json();
   std::string binary = square_binary();
-  put(binary, {0, 0, 2, 0, 3, 0, 1, 0, 0, 0, 0, 0});                                             // at 60
-  for (const std::uint32_t c : {255U, 0U, 51U, 102U}) put(binary, c * 0x010101U | 0xFF000000U);  // at 108
+  put(binary, {0, 0, 2, 0, 3, 0, 1, 0, 0, 0, 0, 0});                                             // data at 60
+  for (const std::uint32_t c : {255U, 0U, 51U, 102U}) put(binary, c * 0x010101U | 0xFF000000U);  // data at 108
   document["buffers"][0]["byteLength"] = binary.size();
   document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 60}, {"byteLength", 48}});
   document["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 108}, {"byteLength", 16}});

@@ -90,7 +90,7 @@ TEST(Models, TakeLittleRoom) {
 
 // Features that change faster than the mesh of the ground had saw teeth before the viewer, who is at negative y.
 TEST(Models, GroundsOfTheJourneyChangeSlowlyEnoughForTheirMesh) {
-  constexpr double kFrom = 60e-9, kTo = 4.5e-3, kBefore = 0.75, kMost = 0.55;  // share of the ground's colours
+  constexpr double kFrom = 60e-9, kTo = 4.5e-3, kBefore = 0.75, kMost = 0.55;  // fractions of the ground's colours
   for (const char* name : {"ground-mica", "ground-gold", "ground-si3n4"}) {
     const Scene scene = load(name);
     std::vector<double> changes;

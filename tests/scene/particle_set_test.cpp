@@ -26,7 +26,7 @@ TEST(ParticleSet, EveryShippedSetLoadsWithASourceForEachNumber) {
     const auto set = load_particle_set(entry.path().string());
     ASSERT_TRUE(set) << set.error().message;
     ++sets;
-    if (set->soft || set->ink) continue;  // soft_sample_test.cpp, ink_run_test.cpp
+    if (set->soft || set->ink) continue;  // sets of soft_sample_test.cpp and ink_run_test.cpp
     EXPECT_FALSE(set->particles.empty());
     EXPECT_FALSE(set->moves.empty());
     EXPECT_EQ(set->sources.size(), 6U + set->setup.pads.size());
@@ -238,7 +238,7 @@ TEST(ParticleSet, OfARecordingHasTheWordsOfTheSetOfTheAssets) {
   EXPECT_EQ(known.targets, set->targets);
   EXPECT_FALSE(known.sources.empty());
 
-  recorded->species[0].kinetic_ratio *= 0.5;  // one of a user's file
+  recorded->species[0].kinetic_ratio *= 0.5;  // value from a user's file
   const ParticleSet unknown = recorded_set(*recorded, support::source("assets"));
   EXPECT_EQ(unknown.title, "Recorded particles");
   EXPECT_TRUE(unknown.sources.empty());

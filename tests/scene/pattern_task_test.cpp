@@ -181,7 +181,7 @@ TEST_F(PatternTaskTest, SeesARestAlsoAfterTheHandHasComeDownAgain) {
     ++places;
     tick(kLowM, -2e-10);
     for (int i = 0; i < 501; ++i) tick(kHighM, 0.0);
-    for (int i = 0; i < 30; ++i) tick(kLowM, -3e-10);  // touched, not moved
+    for (int i = 0; i < 30; ++i) tick(kLowM, -3e-10);  // contact without motion
     return task.score();
   };
   const TaskScore score = score_of(1);

@@ -101,7 +101,7 @@ TEST(Posed, AddsMorphTargetsByTheirWeights) {
 
 TEST(Posed, PutsASkinWhereItsJointsAreWhereverTheNodeIs) {
   Scene scene = triangle();
-  scene.nodes[1].parent_from_node[3] = glm::dvec4(100, 0, 0, 1);  // no importance for a skin
+  scene.nodes[1].parent_from_node[3] = glm::dvec4(100, 0, 0, 1);  // no effect on a skin
   scene.nodes.push_back({"joint", 0U, std::nullopt, glm::dmat4(1.0)});
   scene.nodes[2].parent_from_node[3] = glm::dvec4(0, 0, 5, 1);
   scene.nodes[1].skin = 0;
@@ -123,7 +123,7 @@ TEST(Posed, TurnsFlatNormalsWithTheirTriangles) {
   Scene scene = triangle();
   auto& primitive = scene.meshes[0].primitives[0];
   primitive.normals = Normals::Flat;
-  primitive.targets.push_back({{{0, 0, 0}, {0, 0, 0}, {0, -1, 1}}, {}, {}});  // turns the triangle upright
+  primitive.targets.push_back({{{0, 0, 0}, {0, 0, 0}, {0, -1, 1}}, {}, {}});  // target that turns the triangle upright
   scene.meshes[0].weights = {1.0F};
   EXPECT_NEAR(glm::distance(first_vertex(posed(scene, std::nullopt)).normal, glm::vec3(0, -1, 0)), 0.0F, kTolerance);
 }

@@ -24,7 +24,7 @@ namespace stereo_faults_test {
 
 struct Viewing {
   Screen screen;
-  std::array<glm::dvec3, 2> eyes;  // left, right
+  std::array<glm::dvec3, 2> eyes;  // left and right eye
 };
 using Project = std::function<EyeView(const Viewing&, std::size_t eye)>;
 

@@ -26,9 +26,9 @@ using ::testing::Not;
 
 struct Written {
   glm::dvec3 lower_left{-1.6, 0.5, 0}, lower_right{1.6, 0.5, 0}, upper_left{-1.6, 2.3, 0}, head{0, 1.65, 2.4};
-  std::string orientation{};  // in the file's order; empty: not given
-  std::string more{};         // other tables, before the viewer
-  std::string viewers{};      // behind it
+  std::string orientation{};  // numbers in the file's order; empty: not given
+  std::string more{};         // other tables before the viewer
+  std::string viewers{};      // tables after the viewer
 
   Written scaled(double screens, double head_scale) const {
     Written other = *this;
@@ -169,7 +169,7 @@ TEST(WallDoubts, KnowAHeadThatIsTooNearOrTooFar) {
               ElementsAre(AllOf(HasSubstr("76 mm in front of screen \"wall\""), HasSubstr("3.20 m wide"))));
   Written phone{{-0.03, 1.2, 0}, {0.03, 1.2, 0}, {-0.03, 1.3, 0}, {0, 1.65, 5}, {}, {}, {}};
   EXPECT_THAT(phone.doubts(), ElementsAre(HasSubstr("5.00 m in front")));
-  Written lecture;  // the last row of a lecture hall
+  Written lecture;  // seat in the last row of a lecture hall
   lecture.head = {0, 2.8, 30};
   EXPECT_THAT(lecture.doubts(), IsEmpty());
 }
@@ -219,8 +219,8 @@ TEST(WallDoubts, KnowARoomWhoseZPointsUp) {
     ASSERT_FALSE(doubts.empty());
     EXPECT_THAT(doubts.front(), AllOf(HasSubstr("upper edge points along +z"), HasSubstr("[x, z, -y]")));
   };
-  is_said(x, -y);   // looks along y, as Blender's and Vicon's rooms do
-  is_said(-y, -x);  // looks along x, as in ROS
+  is_said(x, -y);   // view along y, as in Blender's and Vicon's rooms
+  is_said(-y, -x);  // view along x, as in ROS
   is_said(-x, y);
   is_said(y, x);
   Written on_its_side;
@@ -233,7 +233,7 @@ TEST(WallDoubts, KnowARoomWhoseZPointsUp) {
 TEST(WallDoubts, ExceptFloorsCeilingsAndTables) {
   const Written floor{{-1.5, 0, 1}, {1.5, 0, 1}, {-1.5, 0, -1}, {0, 1.65, 1.3}, {}, {}, {}};
   EXPECT_THAT(floor.doubts(), IsEmpty());
-  Written from_behind = floor;  // a viewer at the other side of a table
+  Written from_behind = floor;  // viewer at the other side of a table
   from_behind.orientation = "[0, 1, 0, 0]";
   from_behind.head.z = -1.3;
   EXPECT_THAT(from_behind.doubts(), IsEmpty());
@@ -255,7 +255,7 @@ TEST(WallDoubts, ExceptFloorsCeilingsAndTables) {
 }
 
 TEST(WallDoubts, KnowAHeadBelowTheFloor) {
-  Written mixed;  // the head of a room with z up before a screen of one with y up
+  Written mixed;  // head of a room with z up, in front of a screen of one with y up
   mixed.head = {0, -2.5, 1.65};
   EXPECT_THAT(mixed.doubts(), ElementsAre(AllOf(HasSubstr("2.50 m below the floor"), HasSubstr("[x, z, -y]"))));
 }

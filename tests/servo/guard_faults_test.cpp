@@ -43,7 +43,7 @@ using std::chrono::milliseconds;
 enum class Victim { Renderer, Servo, Watchdog };
 constexpr std::array kVictims{Victim::Renderer, Victim::Servo, Victim::Watchdog};
 constexpr std::array kSignals{SIGKILL, SIGSTOP, SIGTERM, SIGHUP};
-constexpr int kSpacingMs = 50;  // between two faults
+constexpr int kSpacingMs = 50;  // time between two faults
 
 struct Fault {
   Victim victim;
@@ -303,7 +303,7 @@ support::Timed time_of_force(Chain& chain, const Faults& faults, bool waits_for_
       if (!gone) wait_a_little();
     }
     lasted = Clock::now() - begin;
-    raiser.join();  // faults that come after the release
+    raiser.join();  // end of the faults that come after the release
   });
   seen.took = lasted - dying;
   return seen;

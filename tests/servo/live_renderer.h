@@ -14,7 +14,7 @@
 #include "support/paper_model.h"
 #include "support/places.h"
 
-// touchafm's actions for a servo in real time, for tests with real processes. The test machine may stall for many
+// Actions of touchafm for a servo in real time, for tests with real processes. The test machine may stall for many
 // milliseconds at any moment, and the servo then correctly releases the hand. So an action that needs the hand to be
 // held must be repeatable, and waits have generous limits.
 namespace afm::test {
@@ -38,14 +38,14 @@ inline bool eventually(const std::function<bool()>& condition) {
 
 inline scene::SharedSegment create_segment() { return std::move(*scene::SharedSegment::create(paper_model(), 0)); }
 
-// The newest state. Of a servo that runs, a single look may find it half written.
+// Newest state. A single read may find the state of a running servo half written.
 inline scene::TipState tip_state_of(scene::RendererSide& side) {
   std::optional<scene::TipState> state;
   eventually([&] { return (state = side.tip_state()).has_value(); });
   return state.value();
 }
 
-// Sends heartbeats while waiting, and plays a person who holds the simulated hand.
+// Sends heartbeats while waiting, and acts as a person who holds the simulated hand.
 class LiveRenderer {
  public:
   explicit LiveRenderer(scene::RendererSide& side) : side_(side) {}
@@ -71,14 +71,14 @@ class LiveRenderer {
     return until([this](const scene::TipState& state) { return state.acknowledged.hand_script == script_; });
   }
 
-  // The tip hangs on the sample and the hand feels more than half a newton.
+  // True if the tip hangs on the sample and the hand feels more than half a newton.
   bool holds() {
     const auto state = side_.tip_state();
     return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
   }
 
-  // The paper's procedure, until the tip hangs on mica. When the servo lets go on the way the person begins again, as
-  // a person would. With a dead man the button stays pressed.
+  // Runs the paper's procedure until the tip hangs on mica. If the servo releases the hand before, starts again, as a
+  // person would. With a dead man the button stays pressed.
   bool hold_attached(bool dead_man = false) {
     side_.store(scene::Selection{.material = kMica, .revision = 1});
     return eventually([this, dead_man] {

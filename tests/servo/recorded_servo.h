@@ -28,7 +28,7 @@
 // Sessions for the tests of their replay.
 namespace afm::servo {
 
-// The simulated hand on a device of another frame and other limits, which can fail.
+// The simulated hand on a device with another frame and other limits, which can fail.
 class FaultyDevice final : public haptics::HapticDevice {
  public:
   FaultyDevice() : spec_(hand_.spec()) {
@@ -60,8 +60,8 @@ class FaultyDevice final : public haptics::HapticDevice {
   haptics::DeviceSpec spec_;
 };
 
-// A servo in a time that comes irregularly, as on a busy machine, yet in the same way in every run. It records as
-// touchafm does: a session for each material.
+// A servo with irregular ticks, as on a busy machine, but the same in every run. It records as
+// touchafm does: one session per material.
 class Recording {
  public:
   explicit Recording(const scene::SharedModel& model = test::paper_model())
@@ -77,7 +77,7 @@ class Recording {
     loop_->edits().build();
   }
 
-  // The scripted hand goes to a place on the sample, at a height above the contact point.
+  // Sends the scripted hand to a place on the sample, at a height above the contact point.
   void go(const glm::dvec2& place_m, double height_m, double seconds) {
     renderer_.store(
         scene::HandScript{.target_m = {place_m.x, height_m, -place_m.y}, .duration_s = seconds, .revision = ++script_});
@@ -85,7 +85,7 @@ class Recording {
 
   void plan(const scene::PlannedPush& plan) { renderer_.store(plan); }
 
-  // The wall takes the force away; the material stays.
+  // Removes the force, like the wall; the material stays.
   void release(int material, scene::ScaleMode mode = scene::ScaleMode::Fit) {
     renderer_.store(scene::Selection{.material = material, .revision = ++selection_, .scale_mode = mode, .release = 1});
   }
@@ -148,7 +148,7 @@ class Recording {
     run(1300);
   }
 
-  // As a frame of the wall does, about the room's x axis.
+  // Turns the sample about the room's x axis, like a frame of the wall.
   void turn(double angle_rad) {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), angle_rad, glm::dvec3(1.0, 0.2, 0.0)) *
                               scene::rest_room_from_node(segment_.model(), 1);
@@ -170,11 +170,11 @@ class Recording {
   bool heartbeats = true;
   bool stop = false;
   bool unseen = false;
-  std::uint32_t taken_back = 0;  // orders to take a push back, and to put all particles back
+  std::uint32_t taken_back = 0;  // number of requests to take a push back
   std::uint32_t put_back = 0;
-  std::uint32_t looks = 0;                // orders to look again
-  std::unique_ptr<LivePicture> picture;   // at level 1 and 2, after the first tick
-  std::function<scene::ScanLead()> scan;  // scan of each frame; empty: none
+  std::uint32_t looks = 0;                // number of requests for second looks
+  std::unique_ptr<LivePicture> picture;   // picture at levels 1 and 2, after the first tick
+  std::function<scene::ScanLead()> scan;  // source of the scan of each frame; empty: none
   std::int64_t now_ns = 7'000'000'000;
 
  private:
@@ -215,7 +215,7 @@ class Recording {
 
   scene::SharedSegment segment_;
   scene::RendererSide renderer_;
-  std::vector<scene::ParticlePage> pages_;  // newest
+  std::vector<scene::ParticlePage> pages_;  // newest pages
   std::vector<scene::MarkTile> tiles_;
   std::unique_ptr<haptics::ServoLoop> loop_;
   std::uint32_t selection_ = 0;

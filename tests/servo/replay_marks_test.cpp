@@ -31,7 +31,7 @@ void scratch(Recording& recording, double y_m) {
   recording.run(700);
   recording.go({0.015, y_m}, -0.010, 0.8);
   recording.run(1000);
-  recording.go({-0.015, y_m}, -0.010, 0.1);  // too fast
+  recording.go({-0.015, y_m}, -0.010, 0.1);  // motion that is too fast
   recording.run(300);
   recording.go({-0.015, y_m}, 0.06, 0.3);
   recording.run(700);
@@ -55,10 +55,10 @@ struct Marks {
   const char* name;
   decltype(&test::ink_model) model;
   void (*stroke)(Recording&, double y_m);
-  EventKind once;           // a stroke's event, exactly one
-  EventKind at_least_once;  // a stroke's event, one or more
+  EventKind once;           // event that occurs exactly once per stroke
+  EventKind at_least_once;  // event that occurs at least once per stroke
   void (*damage)(scene::SharedParticles&);
-  const char* named;  // the damaged part, in the error
+  const char* named;  // name of the damaged part, in the error
 };
 
 const Marks kMarks[] = {

@@ -114,7 +114,7 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
   recording.arm();
   recording.aim(0.020, 0.5);
   recording.run(400);
-  recording.heartbeats = false;  // the picture hangs, and recovers
+  recording.heartbeats = false;  // beginning of a hang of the picture, which recovers later
   recording.run(700);
   EXPECT_EQ(recording.state().fault, FaultCode::RendererHung);
   recording.heartbeats = true;
@@ -133,7 +133,7 @@ TEST(Replay, GivesFaultsHangsAndLateTicksAgain) {
     recording.run(50);
     EXPECT_EQ(recording.state().servo_state, ServoState::Fault);
     recording.device.*member = !(recording.device.*member);
-    recording.aim(0.062, 0.3, true);  // acknowledges
+    recording.aim(0.062, 0.3, true);  // acknowledgement of the fault
     recording.run(500);
   }
   recording.arm();
@@ -201,7 +201,7 @@ TEST(Replay, OfASessionThatBeginsInAFaultBeginsInIt) {
   recording->run(50);
   recording->device.healthy = false;
   recording->run(20);
-  recording->device.healthy = true;  // does not end a fault
+  recording->device.healthy = true;  // recovery that does not end a fault
   recording->choose(test::kGold);
   recording->run(100);
   ASSERT_EQ(recording->sessions.size(), 2U);
@@ -214,7 +214,7 @@ TEST(Replay, GivesForcesThatWerePutDownForHotMotorsAgain) {
   Recording recording;
   recording.choose(test::kMica);
   recording.arm();
-  recording.aim(-0.030, 0.5);  // exceeds the motors' continuous force
+  recording.aim(-0.030, 0.5);  // place that exceeds the motors' continuous force
   recording.run(60'000);
   EXPECT_LT(recording.state().safety.thermal_gain, 1.0);
   recording.aim(0.065, 0.7);

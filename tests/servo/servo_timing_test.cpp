@@ -96,7 +96,7 @@ TEST_P(StoppedServo, GoesOnWithoutAStepOfTheForceAndLetsGoAfterTwentyMillisecond
     EXPECT_TRUE(servo);
     LiveRenderer renderer(side);
     EXPECT_TRUE(renderer.hold_attached());
-    std::vector<TipSample> samples(1);  // last one before the stop, and all later ones
+    std::vector<TipSample> samples(1);  // last sample before the stop, and all later ones
     while (const auto sample = side.pop_sample()) samples.front() = *sample;
     const std::uint64_t missed_before = side.servo_timing().value_or(ServoTiming{}).missed;
 

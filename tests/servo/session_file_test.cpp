@@ -161,7 +161,7 @@ TEST(SessionFile, CutAnywhereHoldsTheWholePartsBeforeTheCut) {
     EXPECT_THAT(cut_text(*session, path), HasSubstr(longest < 600 ? "after 0." : "s;"));
     longest = session->samples.size();
   }
-  EXPECT_EQ(longest, 666U);  // last byte but one is missing
+  EXPECT_EQ(longest, 666U);  // end without the last byte but one
   EXPECT_EQ(load_session(folder.file("s.afms"))->samples.size(), 1000U);
 }
 

@@ -102,7 +102,7 @@ TEST(SweptLook, IsTakenBackAndReplayedAndStoredBitForBit) {
   looked.recording.run(100);
   EXPECT_EQ(looked.recording.pages(), start);
   EXPECT_EQ(looked.count(EventKind::PushTakenBack), 1U);
-  looked.look(kHardPn, 2000);  // the session ends in a look
+  looked.look(kHardPn, 2000);  // look that lasts until the session ends
   const support::ScratchFolder folder;
   const std::string path = folder.file("swept.afms");
   ASSERT_TRUE(save_session(looked.session(), path));

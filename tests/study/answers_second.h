@@ -8,7 +8,7 @@
 
 namespace afm::study {
 
-// P(answers "second") of the observer that study/threshold.h fits, with lapses.
+// Probability that the observer fitted by study/threshold.h, with lapses, answers "second".
 inline double answers_second_probability(const ThresholdTrial& trial, double weber_fraction, double exponent,
                                          double bias) {
   constexpr double kThresholdZ = 0.6744897501960817;  // z(0.75)

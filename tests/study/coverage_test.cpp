@@ -41,7 +41,7 @@ TEST(CoverageOfTheReport, OfExactProportionsAndTheirDPrimesIsNinetyFivePercent) 
   for (const double d_prime : {0.0, 0.5, 1.0, 2.0, 3.0}) {
     int of_two = 0, of_three = 0, of_share = 0;
     const double two = choice_proportion(d_prime, 2), three = choice_proportion(d_prime, 3);
-    std::vector<Interval> among_three;  // by the number right
+    std::vector<Interval> among_three;  // intervals by the number of right answers
     for (std::size_t right = 0; right <= kTrials; ++right) {
       among_three.push_back(choice_estimate(right, kTrials, 3).interval);
     }
@@ -83,7 +83,7 @@ struct Observer {
 
 // Kaernbach's weighted staircase, which converges where 75 % are right; steps of the level in decibels.
 std::vector<ThresholdTrial> staircase(const Observer& observer, Chance& chance) {
-  constexpr double kDown = 0.04, kUp = 3.0 * kDown;  // log10
+  constexpr double kDown = 0.04, kUp = 3.0 * kDown;  // steps in log10
   std::vector<ThresholdTrial> trials;
   double log_level = std::log10(observer.weber_fraction) + 0.4;
   for (std::size_t i = 0; i < kTrials; ++i) {

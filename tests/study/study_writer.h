@@ -14,7 +14,7 @@ namespace afm::study::test {
 
 inline constexpr const char* kEventsHeader =
     "onset\tduration\tstep\ttrial_type\tcondition\tpractice\ttrial\tlevel\tstimulus\tresponse\tcorrect\trt\n";
-// With the column of the force; its value follows each line.
+// Adds the column of the force; its value follows each line.
 inline std::string with_force(const std::string& events, const std::string& force) {
   std::string text = kEventsHeader + events;
   std::string with;
@@ -33,7 +33,7 @@ inline std::string facts_json(const std::string& device = "sim") {
          device + R"(", "scale": "common", "wall": "desk", "started_day": 0, "observer": {"seed": 7}}})";
 }
 
-// A line of an events file.
+// One line of an events file.
 inline std::string event_line(double onset, const std::string& step, const std::string& type,
                               const std::string& condition, bool practice, int trial, const std::string& level,
                               const std::string& stimulus, const std::string& response, const std::string& correct) {
@@ -65,7 +65,7 @@ class StudyWriter {
     write(folder_ + "/participants.tsv", kPeopleHeader + people_);
   }
 
-  // The same in the layout of version 0.2.1 on. `events`: a whole table.
+  // Same in the layout used since version 0.2.1. `events`: a whole table.
   void add_bids_person(std::size_t person, const std::string& events, const std::string& task = "three") {
     people_ += code(person) + "\t" + std::to_string(person) + "\t18-24\tfinished\n";
     const std::string stem = folder_ + "/" + code(person) + "/beh/" + code(person) + "_task-" + task + "_events";
@@ -84,14 +84,14 @@ class StudyWriter {
   std::string people_;
 };
 
-// The events of one simulated person: identification under two conditions, a threshold, all questionnaires.
+// Events of one simulated person: identification under two conditions, a threshold, all questionnaires.
 class SimulatedEvents {
  public:
   explicit SimulatedEvents(unsigned seed) : random_(seed) {}
 
   double share() { return (static_cast<double>(random_()) + 0.5) / 4294967296.0; }
 
-  // Right with the given probability, otherwise one of the other materials; three trials of practice come before.
+  // Answers right with the given probability, otherwise one of the other materials, after three practice trials.
   void identify(const std::string& condition, double right, int trials) {
     static const std::vector<std::string> kMaterials{"mica", "gold", "si3n4"};
     for (int i = -2; i <= trials; ++i) {
@@ -102,7 +102,7 @@ class SimulatedEvents {
     }
   }
 
-  // By a weighted staircase of an observer whose d' is proportional to the level.
+  // Answers a weighted staircase as an observer whose d' is proportional to the level.
   void threshold(double weber_fraction, double bias, int trials) {
     double log_level = std::log10(weber_fraction) + 0.4;
     for (int i = 1; i <= trials; ++i) {

@@ -8,7 +8,7 @@
 
 #include "scene/display/stereo_layout.h"
 
-// What a pixel behind glasses of two colours must be, written from the research's rule without looking at the shader.
+// Expected colour of a pixel behind glasses of two colours, from the research's rule, independent of the shader.
 namespace afm::test {
 
 inline double linear_from_srgb(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }

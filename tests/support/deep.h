@@ -5,10 +5,10 @@
 
 namespace afm::support {
 
-// True in the cases of label deep, which look at everything; the usual run draws fewer of the same.
+// True in the cases with the label deep, which check everything; the usual run draws fewer of the same cases.
 inline bool deep() { return std::getenv("AFM_DEEP") != nullptr; }
 
-// Number of random draws: all in a deep case, else a tenth.
+// Number of random draws: all in a deep case, otherwise a tenth.
 inline int draws(int all) { return deep() ? all : all / 10; }
 
 }  // namespace afm::support

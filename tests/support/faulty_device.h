@@ -10,7 +10,7 @@
 
 namespace afm::test {
 
-// A command line that runs a program whose graphics device fails, or is less able, in that way.
+// Command line that runs a program whose graphics device fails in this way, or has fewer abilities.
 inline std::vector<std::string> on_faulty_device(const std::string& fault, const std::vector<std::string>& program) {
   std::vector<std::string> command{"/usr/bin/env", "VK_ADD_LAYER_PATH=" + support::fault_layer_folder(),
                                    "VK_INSTANCE_LAYERS=VK_LAYER_AFM_fault", "AFM_TEST_FAULT=" + fault};

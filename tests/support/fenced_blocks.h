@@ -13,7 +13,7 @@ namespace afm::support {
 struct FencedBlock {
   std::string language;
   std::string text;
-  std::size_t begin = 0;  // its first character in the page
+  std::size_t begin = 0;  // index of its first character in the page
 };
 
 inline std::vector<FencedBlock> fenced_blocks(const std::string& page) {
@@ -31,7 +31,7 @@ inline std::vector<FencedBlock> fenced_blocks(const std::string& page) {
   return blocks;
 }
 
-// The text of the first block of this language that begins with these words; empty if there is none.
+// Text of the first block of this language that begins with these words; empty if there is none.
 inline std::string fenced_block(const std::string& page, std::string_view language, std::string_view words = {}) {
   const std::vector<FencedBlock> blocks = fenced_blocks(page);
   const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const FencedBlock& block) {

@@ -10,7 +10,7 @@
 
 namespace afm::support {
 
-// Milliseconds between frames, from a file that `touchafm view --frame-log` has written.
+// Milliseconds between frames, from a file written by `touchafm view --frame-log`.
 inline std::vector<double> intervals_ms(const std::string& frame_log) {
   std::vector<double> all;
   std::istringstream lines(core::read_file(frame_log).value_or(""));

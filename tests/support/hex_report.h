@@ -10,7 +10,7 @@ namespace afm::test {
 
 using Report = std::vector<std::uint8_t>;
 
-// The bytes of "37 00 9a".
+// Bytes of a text such as "37 00 9a".
 inline Report from_hex(const std::string& text) {
   std::istringstream in(text);
   Report report;

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-// Image files of AFM programs, byte by byte as their published layouts have them.
+// Image files of AFM programs, byte by byte, in their published layouts.
 namespace afm::test {
 
 template <class T>
@@ -108,7 +108,7 @@ struct NanoscopeChannel {
   int bytes_of_integer = 2;
   int columns = 0, rows = 0;
   std::string scan_size = "1000 500 nm";
-  std::vector<std::int64_t> integers;  // in file order: the bottom row first
+  std::vector<std::int64_t> integers;  // numbers in file order: the bottom row first
 };
 
 inline std::string nanoscope_file(const std::string& version, const std::vector<NanoscopeChannel>& channels) {
@@ -141,7 +141,7 @@ inline std::string nanoscope_file(const std::string& version, const std::vector<
 
 // ---- Igor ----
 
-// Without labels a matrix, which has a name. `big`: big-endian.
+// An Igor image: without labels a matrix, which has a name. `big`: big-endian.
 inline std::string igor_image_file(int columns, int rows, const std::vector<std::string>& labels, double spacing_m,
                                    const std::string& note, const std::vector<float>& values, bool big = false) {
   std::string bytes(384, '\0');
@@ -183,7 +183,7 @@ inline std::string igor_image_file(int columns, int rows, const std::vector<std:
 
 // ---- JPK ----
 
-// Directories of a TIFF, big-endian, each entry by its tag.
+// Directory of a TIFF, big-endian, each entry by its tag.
 class TiffPage {
  public:
   void number(std::uint16_t tag, std::uint16_t type, std::int64_t value) {
@@ -200,14 +200,14 @@ class TiffPage {
   void text(std::uint16_t tag, const std::string& value) {
     entries_[tag] = {2, static_cast<std::uint32_t>(value.size() + 1), value + '\0'};
   }
-  // Raw bytes of a private tag.
+  // Adds the raw bytes of a private tag.
   void raw(std::uint16_t tag, const std::string& bytes) {
     entries_[tag] = {7, static_cast<std::uint32_t>(bytes.size()), bytes};
   }
-  // One strip, whose place is known when the file is put together.
+  // Adds one strip, whose place is known when the file is assembled.
   void pixels(const std::string& bytes) { pixels_ = bytes; }
 
-  // The page at the end of `file`, whose link to the next one is 0.
+  // Appends the page to `file`; its link to the next one is 0.
   void append_to(std::string& file) {
     const auto pixels_at = static_cast<std::int64_t>(file.size());
     file += pixels_;
@@ -287,7 +287,7 @@ inline TiffPage jpk_channel(const std::string& title, bool retrace, int columns,
   return page;
 }
 
-// Behind a thumbnail with the grid's tags.
+// A JPK image with a thumbnail before it that has the grid's tags.
 inline std::string jpk_image_file(double width_m, double height_m, std::vector<TiffPage> channels) {
   TiffPage thumbnail;
   thumbnail.number(0x0100, 4, 2);

@@ -18,14 +18,14 @@
 
 namespace afm::support {
 
-// A program that runs beside the test, with what it says on stderr. Ended at the latest with the thread that made it.
+// A program that runs during the test, with its output on stderr. Ended at the latest with the thread that made it.
 class LiveProgram {
  public:
   LiveProgram(std::vector<std::string> arguments, const std::string& display) {
     folder_.write("err", "");
     pid_ = ::fork();
     if (pid_ != 0) return;
-    // a test that is killed, as one of a mutant that hangs, leaves no window behind
+    // no window left behind by a test that is killed, such as that of a mutant that hangs
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::setenv("DISPLAY", display.c_str(), 1);
     ::unsetenv("WAYLAND_DISPLAY");
@@ -47,15 +47,15 @@ class LiveProgram {
   pid_t pid() const { return pid_; }
   std::string said() const { return core::read_file(err()).value(); }
 
-  // Waits until it says `text`, after what the last call waited for; false after `patience`, or if it has ended before.
+  // Waits for `text` after the text of the last call; false after `patience`, or if the program has ended before.
   bool says(const std::string& text, std::chrono::seconds patience = std::chrono::minutes(1)) {
     return says_one_of({text}, patience) == text;
   }
 
-  // What it has said until now is not waited for.
+  // Skips the output so far, so that later calls do not find it.
   void skip_what_it_said() { read_ = said().size(); }
 
-  // The same for the first one that is said of several; empty if none is.
+  // Same for the first of several texts; returns it, or an empty text.
   std::string says_one_of(const std::vector<std::string>& texts,
                           std::chrono::seconds patience = std::chrono::minutes(1)) {
     std::string first;
@@ -79,13 +79,13 @@ class LiveProgram {
 
   bool has_ended() { return poll_end(); }
 
-  // Its exit code once it has ended; none if it has not after a minute.
+  // Exit code once it has ended; none after a minute.
   std::optional<int> ends() {
     within(std::chrono::minutes(1), [&] { return poll_end(); });
     return exit_code_;
   }
 
-  // Waits until something holds; false after `patience`, or if it does not when the program has ended.
+  // Waits for a condition; false after `patience`, or if it is still false when the program has ended.
   template <class Condition>
   bool within(std::chrono::seconds patience, Condition&& holds) {
     const auto end = std::chrono::steady_clock::now() + patience;

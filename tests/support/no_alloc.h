@@ -10,7 +10,7 @@
 // a NoAllocation lives, an allocation or a release by its thread ends the program with a message.
 namespace afm::test {
 
-// Aligned as the section behind it: mold 1.10 may leave a lone byte in a page that is not mapped.
+// alignment as for the next section: mold 1.10 may leave a lone byte in a page that is not mapped
 alignas(16) inline thread_local bool allocation_forbidden = false;
 
 class NoAllocation {
@@ -30,7 +30,7 @@ inline void refuse_allocation(const char* what) {
 
 }  // namespace afm::test
 
-// ThreadSanitizer has its own operators, so the guard has no effect there; it has in every other build.
+// ThreadSanitizer has its own operators, so the guard only has an effect in other builds.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define AFM_TEST_SANITIZES_THREADS

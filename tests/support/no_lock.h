@@ -14,7 +14,7 @@
 // the exception were caught.
 namespace afm::test {
 
-// Aligned as the section behind it: mold 1.10 may leave a lone byte in a page that is not mapped.
+// alignment as for the next section: mold 1.10 may leave a lone byte in a page that is not mapped
 alignas(16) inline thread_local bool lock_forbidden = false;
 
 class NoLock {
@@ -25,7 +25,7 @@ class NoLock {
   ~NoLock() { lock_forbidden = false; }
 };
 
-// What the name would have reached without us.
+// Function that the name would have reached without this file.
 template <class Function>
 Function* next_of(const char* name) {
   if (lock_forbidden) {

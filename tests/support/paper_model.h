@@ -28,7 +28,7 @@ inline scene::SharedModel paper_model() {
   model.nodes[0].parent_from_node = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   model.nodes[1].name = scene::to_name("sample");
   model.nodes[1].parent = 0;
-  // columns: the sample's x, y, z and origin in the room; z is up
+  // columns: x, y, z and origin of the sample in the room; z is up
   model.nodes[1].parent_from_node = {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 1.5, 0, 1};
   model.sample_node = 1;
   model.material_count = 3;

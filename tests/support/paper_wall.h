@@ -13,7 +13,7 @@
 
 namespace afm::test {
 
-// The paper's samples before the paper's wall, as they are shown.
+// The paper's samples in front of the paper's wall, as displayed.
 class PaperWall : public ::testing::Test {
  protected:
   const std::string assets_ = support::source("assets");

@@ -20,7 +20,7 @@ inline const exhibit::Phrases& english() {
   return phrases;
 }
 
-// Each vowel with an accent and each third letter twice, which makes a text a third longer. Text in braces does not
+// Text with an accent on each vowel and each third letter twice, which makes it a third longer. Text in braces does not
 // change.
 inline std::string pseudo_text(std::string_view english) {
   static constexpr std::array<std::pair<char, const char*>, 12> kAccents{{{'a', "á"},
@@ -54,7 +54,7 @@ inline std::string pseudo_text(std::string_view english) {
   return text;
 }
 
-// English as a language that is longer and accented: what is cut or not translated shows. The words are those that
+// English as a longer, accented language, so that cut or untranslated texts are visible. Its words are those that
 // German translates.
 inline std::string pseudo_language() {
   std::string file;

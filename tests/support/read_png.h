@@ -10,7 +10,7 @@
 
 namespace afm::support {
 
-// Any PNG as 8-bit RGBA; empty if it cannot be read.
+// Reads any PNG as 8-bit RGBA; empty if it cannot be read.
 inline std::optional<render::Image> read_png(const std::string& path) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

@@ -18,7 +18,7 @@ struct ProgramResult {
   std::string err;
 };
 
-// Runs a command line through the shell, as a person types it, and waits.
+// Runs a command line through the shell, as typed by a person, and waits.
 inline ProgramResult run_program(const std::string& command_line) {
   const ScratchFolder folder;
   const std::string out = folder.file("out"), err = folder.file("err");

@@ -15,7 +15,7 @@ const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation\n"
          "leak:libvulkan_lvp\n"
          "leak:libLLVM\n"
-         "leak:libopenxr_loader\n"  // 1.0.20 forgets its table of an instance that is destroyed
+         "leak:libopenxr_loader\n"  // table of a destroyed instance, which 1.0.20 forgets
          "leak:libdbus\n"           // asked for a screen saver by SDL, if a display has a session bus
          "leak:libxcb\n";           // swapchain whose X server died; functions have no name without a symbolizer
 }

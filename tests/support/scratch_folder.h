@@ -10,7 +10,7 @@
 
 namespace afm::support {
 
-// An empty folder of this test's own, removed with it.
+// A private empty folder, removed with the object.
 class ScratchFolder {
  public:
   ScratchFolder() {

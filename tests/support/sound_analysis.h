@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-// Ears of a test: pitch, level and steps of a sound.
+// Analysis of a sound: pitch, level and steps.
 namespace afm::test {
 
-// Left (0) or right (1) of samples that take turns.
+// Left (0) or right (1) channel of alternating samples.
 inline std::vector<double> channel(std::span<const float> interleaved, std::size_t which) {
   std::vector<double> samples;
   for (std::size_t i = which; i < interleaved.size(); i += 2) samples.push_back(static_cast<double>(interleaved[i]));
@@ -40,7 +40,7 @@ inline std::vector<std::complex<double>> fft(std::vector<std::complex<double>> x
   return x;
 }
 
-// The strongest frequency: Hann window, a parabola through the logarithms of three bins. A power of two of samples.
+// Strongest frequency: Hann window, a parabola through the logarithms of three bins. Needs a power of two of samples.
 inline double pitch_hz(std::span<const double> samples, double rate_hz) {
   const std::size_t n = samples.size();
   std::vector<std::complex<double>> windowed;

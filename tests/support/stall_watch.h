@@ -29,7 +29,7 @@ class StallWatch {
   }
 
   struct Stall {
-    std::int64_t from_ns, to_ns;  // by the steady clock
+    std::int64_t from_ns, to_ns;  // times on the steady clock
   };
   // Longest stall that overlaps a span of the steady clock.
   std::chrono::nanoseconds longest_between(std::int64_t from_ns, std::int64_t to_ns) const {
@@ -42,7 +42,7 @@ class StallWatch {
     return std::chrono::nanoseconds(longest_ns);
   }
 
-  // Longest delay of a wake-up since construction, a wake-up that is still due included.
+  // Longest delay of a wake-up since construction, including a wake-up that is still due.
   std::chrono::nanoseconds longest() const {
     const std::int64_t overdue_ns = now_ns() - due_ns_.load();
     return std::chrono::nanoseconds(std::max({std::int64_t{0}, longest_ns_.load(), overdue_ns}));
@@ -72,13 +72,13 @@ class StallWatch {
   std::atomic<bool> ended_{false};
   std::atomic<std::int64_t> due_ns_{now_ns() + kPeriodNs}, longest_ns_{0};
   mutable std::mutex mutex_;
-  std::vector<Stall> stalls_;  // those of a millisecond or more
+  std::vector<Stall> stalls_;  // stalls of at least a millisecond
   std::thread thread_;
 };
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-// Duration of an action, and the machine's longest stall meanwhile.
+// Duration of an action, and the machine's longest stall during it.
 struct Timed {
   Milliseconds took{}, stalled{};
 };
@@ -91,7 +91,7 @@ Timed timed(Action&& action) {
   return {std::chrono::steady_clock::now() - begin, watch.longest()};
 }
 
-// A machine that wakes its watcher within this time is awake.
+// Wake-up delay up to which a machine counts as awake.
 inline constexpr Milliseconds kAwake{5.0};
 
 // Fails unless `window`, which returns a Timed, stays within the bound. A window that exceeds it condemns the program

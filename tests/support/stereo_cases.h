@@ -15,17 +15,17 @@ namespace afm::test {
 struct StereoCase {
   std::string id, kind, convention;
   std::string input;           // text in the file
-  std::vector<double> inputs;  // values, if it is a list of numbers
+  std::vector<double> inputs;  // values, if the text is a list of numbers
   std::vector<double> expected;
 };
 
-// As far as the text is numbers.
+// Numbers in the text, up to the first other word.
 inline std::vector<double> numbers(const std::string& text) {
   std::istringstream stream(text);
   std::vector<double> values;
   for (std::string word; stream >> word;) {
     char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);  // unlike >>, knows "inf"
+    const double value = std::strtod(word.c_str(), &end);  // value; unlike >>, strtod knows "inf"
     if (end != word.c_str() + word.size()) break;
     values.push_back(value);
   }

@@ -14,7 +14,7 @@ namespace afm::test {
 scene::Screen paper_screen();
 scene::EyeView eye_view(scene::Eye eye, const glm::dvec3& head_m = glm::dvec3(0.0, 0.0, 2.5), double ipd_m = 0.063);
 
-// Meshes of a unit size, centred on the origin but for the lever, which lies along +x from 0 to 1.
+// Meshes of unit size, centred on the origin except for the lever, which lies along +x from 0 to 1.
 scene::Primitive quad(std::uint32_t material);  // in the xy plane, facing +z
 scene::Primitive sphere(std::uint32_t material, int rings);
 scene::Primitive lever(std::uint32_t material, double half_width, double half_thickness, int segments);
@@ -30,13 +30,13 @@ struct TestScene {
 };
 TestScene make_test_scene();
 
-// Both eyes, the rest transforms, no panels.
+// A frame with both eyes, the rest transforms, and no panels.
 render::FrameState bare_frame(const scene::Scene& scene);
 
 // The test scene with its lever bent and all panels filled.
 render::FrameState full_frame(const TestScene& test);
 
-// Nothing shown.
+// Placement that shows nothing.
 inline render::PanelPlacement nowhere() { return {.right_m = glm::dvec3(0.0), .up_m = glm::dvec3(0.0)}; }
 
 }  // namespace afm::test

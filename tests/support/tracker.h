@@ -14,8 +14,8 @@
 
 namespace afm::support {
 
-// A tracker that sends a head and a Flystick through a real socket, 100 times a second with garbage in between, until
-// it is destroyed. Its frame is DTrack's: z upwards, y towards the wall.
+// A tracker that sends a head and a Flystick through a real socket, 100 times a second with garbage in between, for
+// the object's lifetime. Its frame is DTrack's: z upwards, y towards the wall.
 class Tracker {
  public:
   Tracker() : thread_([this] { run(); }) {}
@@ -26,7 +26,7 @@ class Tracker {
     thread_.join();
   }
 
-  // A cable that is pulled: silence, until there is something to show again.
+  // Falls silent, like a pulled cable, until there is something to show again.
   void fall_silent() {
     const std::lock_guard lock(changing_);
     lines_.clear();

@@ -66,7 +66,7 @@ TwoMonitors::TwoMonitors() {
   xrandr("--newmode small 6.00 320 336 352 400 240 243 247 252");
   for (const char* const output : {"DUMMY0", "DUMMY1"}) xrandr("--addmode " + std::string(output) + " small");
   xrandr("--fb 640x240 --output DUMMY0 --mode small --pos 0x0 --output DUMMY1 --mode small --pos 320x0");
-  xrandr("--query");  // has the driver look what is connected now
+  xrandr("--query");  // check for connected outputs by the driver
 }
 
 TwoMonitors::~TwoMonitors() {

@@ -14,7 +14,7 @@ namespace afm::support {
 // with the driver that shows nothing. Throws if the packages for it are missing.
 class TwoMonitors {
  public:
-  static constexpr int kWidth = 320, kHeight = 240;  // size of each
+  static constexpr int kWidth = 320, kHeight = 240;  // size of each monitor
 
   TwoMonitors();
   TwoMonitors(const TwoMonitors&) = delete;
@@ -23,10 +23,10 @@ class TwoMonitors {
 
   const std::string& name() const { return name_; }
 
-  // As cables and switches do: "--output DUMMY1 --off".
+  // Changes the outputs, as cables and switches do: "--output DUMMY1 --off".
   void xrandr(const std::string& arguments) const;
 
-  // The whole desktop.
+  // Picture of the whole desktop.
   render::Image screenshot() const;
 
  private:

@@ -20,7 +20,7 @@
 
 namespace afm::support {
 
-// An X server of this test's own, without a screen, a window manager or other clients. Throws if Xvfb is missing.
+// A private X server without a screen, a window manager or other clients. Throws if Xvfb is missing.
 class VirtualDisplay {
  public:
   VirtualDisplay(int width, int height, int depth = 24) {
@@ -37,7 +37,7 @@ class VirtualDisplay {
     }
     ::close(ends[1]);
 
-    // it writes its number once it takes clients; the end of the pipe without one means that it has ended
+    // Xvfb writes its number once it takes clients; the end of the pipe without a number means that it has ended
     char c = 0;
     while (::read(ends[0], &c, 1) == 1 && c != '\n') name_ += c;
     ::close(ends[0]);
@@ -48,12 +48,12 @@ class VirtualDisplay {
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
   ~VirtualDisplay() { end(SIGTERM); }
 
-  // As if the X server had crashed.
+  // Kills the server, as if it had crashed.
   void die() { end(SIGKILL); }
 
   const std::string& name() const { return name_; }
 
-  // The X window dump that Xvfb keeps the whole screen in.
+  // X window dump in which Xvfb keeps the whole screen.
   std::string framebuffer() const { return folder_.file("Xvfb_screen0"); }
 
   render::Image screenshot() const {
@@ -66,12 +66,12 @@ class VirtualDisplay {
     };
     const std::uint32_t header = word(0), width = word(4), height = word(5), bytes_per_line = word(12),
                         colors = word(19);
-    const bool ten_bits = word(14) == 0x3FF00000U;  // mask of red
+    const bool ten_bits = word(14) == 0x3FF00000U;  // mask of red for 10 bits
     render::Image image{.width = width, .height = height, .rgba = {}};
     for (std::uint32_t y = 0; y < height; ++y) {
       for (std::uint32_t x = 0; x < width; ++x) {
         const std::size_t at = header + std::size_t{12} * colors + std::size_t{y} * bytes_per_line + std::size_t{4} * x;
-        std::uint32_t pixel = 0;  // blue in the lowest bits
+        std::uint32_t pixel = 0;  // pixel with blue in its lowest bits
         for (const std::size_t byte : {3U, 2U, 1U, 0U})
           pixel = pixel << 8 | static_cast<unsigned char>(dump.at(at + byte));
         for (const unsigned channel : {2U, 1U, 0U}) {

@@ -48,7 +48,7 @@ class VulkanTest : public testing::Test {
     return context;
   }
 
-  // Each test makes and drops pictures of the same sizes: memory that the allocator keeps needs no new pages.
+  // Keeps freed memory: each test creates and drops pictures of the same sizes, which then need no new pages.
   static void keep_freed_memory() {
     mallopt(M_MMAP_THRESHOLD, 1 << 30);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
@@ -64,7 +64,7 @@ class VulkanTest : public testing::Test {
   }
 };
 
-// Small enough for a CPU device under sanitizers; the proportions of the paper's wall.
+// Options small enough for a CPU device under sanitizers, in the proportions of the paper's wall.
 inline render::RendererOptions small(std::uint32_t samples = 4,
                                      render::PassMode pass_mode = render::PassMode::Multiview) {
   return {.eye_width = 256, .eye_height = 192, .samples = samples, .pass_mode = pass_mode, .panel_texels_per_m = 320.0};

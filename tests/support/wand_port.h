@@ -20,7 +20,7 @@
 
 namespace afm::support {
 
-// A computer into which HID devices can be plugged: umockdev shows it to libhidapi and to udev's library,
+// A computer with ports for HID devices: umockdev shows the devices to libhidapi and to udev's library,
 // in this process and in those that it starts. Run by umockdev-wrapper; throws where that does not work.
 class WandPort {
  public:
@@ -33,8 +33,8 @@ class WandPort {
     while (plugged()) unplug();
   }
 
-  // `ids` is the kernel's "256F:0000C635". Every time as another node, as a kernel does that still holds the old one.
-  // Whatever it is, it describes its reports as a SpaceMouse Compact does.
+  // Plugs in a device; `ids`: "256F:0000C635". Each is another node, as if the old one were still held.
+  // Whatever its ids, it describes its reports as a SpaceMouse Compact does.
   void plug(const std::string& ids, const std::string& name) {
     ++number_;
     const std::string text = "P: " + device_path() + "\nE: DRIVER=hid-generic\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000" +
@@ -60,7 +60,7 @@ class WandPort {
 
   bool plugged() const { return !ends_.empty(); }
 
-  // The one plugged in last.
+  // Unplugs the device that was plugged in last.
   void unplug() {
     const End last = ends_.back();
     ends_.pop_back();
@@ -71,7 +71,7 @@ class WandPort {
     number_ = newest;
   }
 
-  // Sends an input report of the device plugged in last, or of the one of that number in the order of plugging in.
+  // Sends an input report of the device plugged in last, or of the one with that index in the order of plugging in.
   // Returns false if it is not read and there is no more room.
   bool send(std::span<const std::uint8_t> report) const { return send(ends_.size() - 1, report); }
   bool send(std::size_t device, std::span<const std::uint8_t> report) const {

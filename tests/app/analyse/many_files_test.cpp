@@ -50,7 +50,7 @@ class ManyFiles : public ::testing::Test {
                                                                    : whole.substr(0, cut) + "\nx" + whole.substr(cut));
       } else if (fault < kBroken + kHuge) {
         folder_.write(std::to_string(i) + ".tab", whole);
-        std::filesystem::resize_file(files_.back(), std::uintmax_t{3} << 30U);  // sparse
+        std::filesystem::resize_file(files_.back(), std::uintmax_t{3} << 30U);  // sparse file
       } else {
         make_unreadable(files_.back(), fault % 4);
       }

@@ -18,7 +18,7 @@
 
 namespace afm::app {
 
-// Datagrams of the wall, as anyone on its network could see them.
+// Datagrams of the wall, as visible to anyone on its network.
 inline std::vector<std::string> overheard(std::uint32_t first_port) {
   std::vector<std::string> datagrams;
   const int listener = ::socket(AF_PACKET, SOCK_DGRAM, htons(0x0800));
@@ -39,7 +39,7 @@ inline std::vector<std::string> overheard(std::uint32_t first_port) {
   return datagrams;
 }
 
-// Sends them again, cut and with other bytes, to the ports of discovery and data of the first three programs.
+// Sends these datagrams again, cut and with other bytes, to discovery and data ports of the first three programs.
 inline void send_broken_datagrams(std::uint32_t first_port, int count) {
   const std::vector<std::string> seen = overheard(first_port);
   ASSERT_EQ(seen.size(), 200U);
@@ -57,7 +57,7 @@ inline void send_broken_datagrams(std::uint32_t first_port, int count) {
     to.sin_port = htons(static_cast<std::uint16_t>(first_port + 10 + below(6)));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     ::sendto(sender, datagram.data(), datagram.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof(to));
-    // so that a full buffer does not drop most of them
+    // so that a full buffer does not drop most datagrams
     if (i % 100 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   ::close(sender);

@@ -160,7 +160,7 @@ Consumption consumption_of(pid_t process) {
 double usual_growth_kb(const std::vector<double>& resident_kb) {
   std::vector<double> grown(resident_kb.size());
   std::adjacent_difference(resident_kb.begin(), resident_kb.end(), grown.begin());
-  grown.erase(grown.begin());  // the first minute's value itself
+  grown.erase(grown.begin());  // value of the first minute itself
   return core::percentiles(std::move(grown)).p50;
 }
 

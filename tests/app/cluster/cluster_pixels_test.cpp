@@ -163,7 +163,7 @@ class MappedScreen {
   }
 
  private:
-  static constexpr unsigned char kBrightest = 150;  // brighter than the background, with a margin
+  static constexpr unsigned char kBrightest = 150;  // threshold above the background, with a margin
 
   std::uint32_t word(std::size_t i) const {
     std::uint32_t value = 0;

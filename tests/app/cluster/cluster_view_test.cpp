@@ -36,7 +36,7 @@ class ClusterViewTest : public ClusterWall {
                    {"/usr/bin/env", "TOUCHAFM_HD_LIBRARY=" + support::mock_hd(), "TMPDIR=" + temporary_.path()});
     return start(program);
   }
-  support::ScratchFolder temporary_;  // the nodes' own
+  support::ScratchFolder temporary_;  // folder of the nodes
 };
 
 // Programs that a process has started, and devices that it has opened.
@@ -64,7 +64,7 @@ std::string open_devices_of(pid_t process) {
 // Whether the last line about a node says that it shows the wall. A busy machine's node can be missing for some frames.
 bool is_shown(const support::LiveProgram& hand, const std::string& node) {
   const std::string all = hand.said();
-  const auto end_of_last = [&](const std::string& line) { return all.rfind(line) + 1; };  // 0 if it was not said
+  const auto end_of_last = [&](const std::string& line) { return all.rfind(line) + 1; };  // 0 if it was not logged
   return end_of_last("node " + node + " shows the wall") > end_of_last("node " + node + " is missing");
 }
 
@@ -93,7 +93,7 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   // sample, eyes, parameters, eye distance, stereo mode, head; once the servo has the sample, friction loop and scan
   press_at_master("2 s F2 F8 v Left");
   ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
-  for (const char* said : {"eyes swapped", "Press Turn-On"}) {  // in the order in which key and servo are ready
+  for (const char* said : {"eyes swapped", "Press Turn-On"}) {  // order in which key and servo are ready
     ASSERT_TRUE(hand->within(std::chrono::minutes(1), [&] { return hand->said().find(said) != std::string::npos; }))
         << hand->said();
   }

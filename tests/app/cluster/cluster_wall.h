@@ -31,7 +31,7 @@ constexpr std::uint32_t kMargin = 20;                 // space below the windows
 struct OutputPlace {
   std::uint32_t x = 0, width = kWidth, height = kHeight;
 };
-constexpr std::array<OutputPlace, 3> kBeside{{{0}, {kWidth}, {2 * kWidth}}};  // on one desktop
+constexpr std::array<OutputPlace, 3> kBeside{{{0}, {kWidth}, {2 * kWidth}}};  // windows on one desktop
 
 inline std::string wall_of_three(const std::string& left_host, const std::string& right_host,
                                  const std::array<OutputPlace, 3>& places = kBeside) {
@@ -67,7 +67,7 @@ class ClusterWall : public ::testing::Test {
  protected:
   ClusterWall() { folder_.write("wall.toml", wall_of_three("127.0.0.1", "127.0.0.1")); }
 
-  // without a frame budget, by which a slow machine would show coarser pictures than the others
+  // without a frame budget, which would make a slow machine show coarser pictures than the others
   std::vector<std::string> node_command(const std::string& name, const std::string& address) const {
     return {support::touchafm(), "node", name, "--interface", address, "--domain", domain(), "--frame-budget", "none"};
   }
@@ -94,7 +94,7 @@ class ClusterWall : public ::testing::Test {
       ASSERT_NE(hand.says_one_of({"node left shows the wall", "node right shows the wall"}), "") << hand.said();
     }
   }
-  // Two runs of this test beside each other do not meet.
+  // Domain that differs between two runs of this test at the same time.
   static std::string domain() { return std::to_string(100 + ::getpid() % 100); }
 
   void xdotool(const std::string& command) const {
@@ -102,12 +102,12 @@ class ClusterWall : public ::testing::Test {
         support::run_program("env -u WAYLAND_DISPLAY DISPLAY=" + display_.name() + " xdotool " + command).exit_code, 0);
   }
   void press_at_master(const std::string& key) const {
-    // the window that was opened last has the focus
+    // focus is on the window that was opened last
     xdotool("search --name 'output 0' windowfocus --sync key " + key);
     xdotool("mousemove 5 " + std::to_string(kHeight + kMargin - 1));
   }
 
-  // The largest difference of a byte between two windows.
+  // Largest difference of a byte between two windows.
   static int difference(const render::Image& all, std::uint32_t a, std::uint32_t b) {
     int largest = 0;
     for (std::size_t y = 0; y < kHeight; ++y) {
@@ -127,7 +127,7 @@ class ClusterWall : public ::testing::Test {
     }
     return bright > kWidth;
   }
-  // Waits until all windows show the same picture.
+  // True once all windows show the same picture.
   bool all_same() const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     for (;;) {

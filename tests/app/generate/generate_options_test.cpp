@@ -35,7 +35,7 @@ constexpr std::string_view kGel = "--modulus 3kPa --radius 5um --spring-constant
 struct Row {
   std::string_view kinds;  // kinds that have the option
   std::string_view base;   // options without it
-  std::string_view added;  // it, with what it needs
+  std::string_view added;  // the option, with everything that it needs
   std::string_view truth;  // part of the truth, without spaces
 };
 

@@ -190,7 +190,7 @@ TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone)
   ASSERT_TRUE(live->says("says: This lesson keeps your answers")) << live->said();
   xdotool("key x");
   ASSERT_TRUE(live->says("says: The picture is off")) << live->said();
-  xdotool("key t");  // no answer: the hand has marked none
+  xdotool("key t");  // no answer, since the hand has marked none
   move_hand(-0.020);
   ASSERT_TRUE(live->says("says: Yes, I take part")) << live->said();
   ASSERT_TRUE(turn_on_until(*live, "says: Words of feel")) << live->said();
@@ -340,7 +340,7 @@ TEST_F(HeardView, EndsAtOnceWhileTheProgramThatSpeaksHangs) {
   const auto live = view({"--sound", "--speech"});
   EXPECT_TRUE(live->says("says: Choose a sample")) << live->said();
   EXPECT_TRUE(live->says("did not answer within 2 s and was ended")) << live->said();
-  xdotool("key 2");  // frames go on
+  xdotool("key 2");  // frames continue
   EXPECT_TRUE(live->says("says: Gold")) << live->said();
   live->signal(SIGINT);
   EXPECT_EQ(live->ends(), 0) << live->said();
@@ -354,7 +354,7 @@ TEST_F(HeardView, LeavesSpeechToAScreenReaderThatRuns) {
   // one process of that name, so that none is left
   std::filesystem::copy_file("/bin/sleep", folder_.file("orca"));
   support::LiveProgram reader({folder_.file("orca"), "1000"}, "");
-  for (int i = 0; i < 500; ++i) {  // waits for the process to get its name
+  for (int i = 0; i < 500; ++i) {  // time for the process to get its name
     const auto name = core::read_file("/proc/" + std::to_string(reader.pid()) + "/comm");
     if (name && *name == "orca\n") break;
     std::this_thread::sleep_for(milliseconds(10));

@@ -78,7 +78,7 @@ TEST_F(InstructorTest, GoesOnTakesTheForceAwaySkipsAndStopsFromTheSecondMonitor)
   support::LiveProgram view(command({"--participant", "QXWERT", "--out", out}), monitors_.name());
   ASSERT_TRUE(view.says("the instructor's window is open")) << view.said();
   ASSERT_TRUE(view.says("Do you take part?")) << view.said();
-  click(InstructorAction::Next);  // only the participant may consent
+  click(InstructorAction::Next);  // without effect, since only the participant may consent
   ASSERT_EQ(xdotool("search --name '^TouchAFM$' windowfocus key 1").exit_code, 0);
   ASSERT_TRUE(view.says("Words of hello")) << view.said();
   click(InstructorAction::Next);

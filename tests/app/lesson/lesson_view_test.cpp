@@ -109,7 +109,7 @@ TEST_F(LessonView, GoesFromConsentThroughTextAndCycleToTheEndAndKeepsItsTrials) 
     }
     if (item == 1) key("9 minus");
     if (item == 2) picture("scale");
-    if (item == 3) {  // with the pointer: less, and the mark itself
+    if (item == 3) {  // pointer on less, and on the mark itself
       click(0, 3);
       click(1, 3);
       continue;
@@ -184,7 +184,7 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   key("2");
   ASSERT_TRUE(view.says("Words of blind")) << view.said();
   picture("blind");
-  for (const char* locked : {"F2", "m", "i", "1"}) key(locked);  // would change or choose the sample
+  for (const char* locked : {"F2", "m", "i", "1"}) key(locked);  // keys that would change or choose the sample
   ASSERT_TRUE(view.says("pull 0.6000 nN", std::chrono::minutes(2))) << "the sample is as loaded again: " << view.said();
   ASSERT_TRUE(view.says("Which sample was it?")) << view.said();
   EXPECT_THAT(view.said(), Not(HasSubstr("chosen: "))) << "the log of a blind step names no sample";

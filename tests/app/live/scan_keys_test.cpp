@@ -34,17 +34,17 @@ using physics::ScanArtefact;
 
 constexpr std::size_t kGold = 1, kPixels = LiveScan::kPixels;
 constexpr double kFrameS = 1.0 / 60.0;
-constexpr std::size_t kLines = 8;  // whole ones that are looked at, the newest
+constexpr std::size_t kLines = 8;  // number of newest whole lines to check
 
 // ---- what the manual says ----
 
 struct Press {
-  std::string row;  // the beginning of its name
+  std::string row;  // beginning of the row's name
   int times = 0;    // number of presses of +, or of - if negative
 };
 
 struct ManualRow {
-  std::string artefact;  // "double tip"
+  std::string artefact;  // name such as "double tip"
   std::vector<Press> presses;
 };
 
@@ -220,32 +220,32 @@ double shown(const Image& image, ScanArtefact artefact) {
     case ScanArtefact::DoubleTip:
     case ScanArtefact::BluntTip:
       return mean_above(image);
-    case ScanArtefact::Ringing:  // from pixel to pixel of the error, in setpoints
+    case ScanArtefact::Ringing:  // change from pixel to pixel of the error, in setpoints
       return std::sqrt(
                  image.mean([&](auto c, auto r) { return square(image.error_n(c, r) - image.error_n(c - 1, r)); })) /
              setpoint_n;
     case ScanArtefact::Parachuting:
       return flown_share(image);
-    case ScanArtefact::Overload: {  // the brightest point of the error, in setpoints
+    case ScanArtefact::Overload: {  // brightest point of the error, in setpoints
       double most_n = 0;
       image.mean([&](auto c, auto r) { return most_n = std::max(most_n, image.error_n(c, r)); });
       return most_n / setpoint_n;
     }
-    case ScanArtefact::Drift:  // pixels from the sample to the newest lines, to the right as above
+    case ScanArtefact::Drift:  // offset of the newest lines from the sample, in pixels to the right as above
       return least_at([&](int way) {
         return image.mean(
             [&](auto c, auto r) { return square(image.height_m(0, c, r) - image.place_m(c, r, way, way)); });
       });
     case ScanArtefact::Noise:
       return roughness(image);
-    case ScanArtefact::Blur:  // by how many pixels trace and retrace lie apart
+    case ScanArtefact::Blur:  // offset between trace and retrace, in pixels
       return least_at([&](int way) {
         return image.mean([&](auto c, auto r) {
           const auto there = static_cast<std::size_t>(static_cast<int>(c) - way);
           return square(image.height_m(0, c, r) - image.height_m(1, there, r));
         });
       });
-    case ScanArtefact::StateFlips:  // in tapping mode alone
+    case ScanArtefact::StateFlips:  // only in tapping mode
     case ScanArtefact::Saturation:
     case ScanArtefact::None:
       break;

@@ -84,7 +84,7 @@ TEST_F(ViewOutputsTest, EachTileKeepsItsOwnScreen) {
   const auto outputs = plan().value();
   EXPECT_EQ(outputs[0].screen.name, "wall");
   EXPECT_EQ(outputs[1].screen.name, "side");
-  EXPECT_EQ(outputs[1].window.monitor, "DP-2");  // by its number
+  EXPECT_EQ(outputs[1].window.monitor, "DP-2");  // monitor with that number
 }
 
 // Wayland names a monitor by its make.
@@ -107,7 +107,7 @@ TEST_F(ViewOutputsTest, AMonitorThatIsNotThereIsNamedWithThoseThatAre) {
                                              HasSubstr("1 DP-1 (800 x 600 at 0, 0), 2 DP-2 (800 x 600 at 800, 0)")));
   for (const char* const number : {"0", "3", "-1", "1 ", ""}) {
     wall_.outputs[0].monitor = number;
-    wall_.outputs[0].rect = {{5000, 0}, {10, 10}};  // counts where no monitor is named
+    wall_.outputs[0].rect = {{5000, 0}, {10, 10}};  // used if no monitor is named
     EXPECT_FALSE(plan().has_value()) << number;
   }
 }
@@ -131,7 +131,7 @@ TEST_F(ViewOutputsTest, ASizeAMonitorOrFullScreenIsOneWindowOfTheStage) {
         WindowOptions{.size_px = {}, .monitor = {}, .full_screen = true}}) {
     const auto outputs = plan({}, options).value();
     ASSERT_EQ(outputs.size(), 1U);
-    EXPECT_EQ(outputs[0].composition({}, EyeOrder::Straight).mode, StereoMode::SideBySide);  // a pair of projectors
+    EXPECT_EQ(outputs[0].composition({}, EyeOrder::Straight).mode, StereoMode::SideBySide);  // pair of projectors
     EXPECT_EQ(outputs[0].picture_from_output, glm::dmat3(1.0));
     EXPECT_EQ(outputs[0].window.monitor, options.monitor);
     EXPECT_EQ(outputs[0].window.full_screen, options.full_screen);

@@ -34,7 +34,7 @@ constexpr auto kPages = std::to_array<std::string_view>(
      "docs/manual/force-dimension.md", "docs/manual/reference.md"});
 
 struct Exception {
-  std::string_view command;  // as on the page
+  std::string_view command;  // command as on the page
   std::string_view reason;
 };
 
@@ -110,7 +110,7 @@ std::vector<std::string> commands_of(const std::string& page) {
   };
   const std::string_view program = "touchafm ";
   std::istringstream lines(page);
-  std::string fence, text;  // the language of the block that the line is in; the running text of a paragraph
+  std::string fence, text;  // language of the current block; running text of a paragraph
   const auto add_quotations = [&] {
     for (std::size_t open = text.find('`'); open != std::string::npos;) {
       const std::size_t close = text.find('`', open + 1);
@@ -239,7 +239,7 @@ TEST_P(ManualCommands, Run) {
 
   std::string script = kSetUp;
   if (GetParam() != kPages.front() && std::any_of(commands.begin(), commands.end(), reads_demonstration)) {
-    script += "command touchafm demo --out out >/dev/null\n";  // as README begins
+    script += "command touchafm demo --out out >/dev/null\n";  // first command of README
   }
   for (std::size_t i = 0; i < commands.size(); ++i) {
     script += fmt::format("output={}/output-{}\ncode=0\n( {} ) >$output 2>&1 || code=$?\necho $code >code-{}\n",

@@ -28,7 +28,7 @@ using support::TwoMonitors;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-constexpr double kShrunk = 0.9, kInset = 0.05;  // by the right projector's keystone
+constexpr double kShrunk = 0.9, kInset = 0.05;  // keystone of the right projector
 
 std::string wall_file(const std::string& left_place) {
   return R"(

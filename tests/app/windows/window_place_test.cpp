@@ -97,7 +97,7 @@ class StubbornManager {
       while (XPending(display_.get()) > 0) {
         XEvent event;
         XNextEvent(display_.get(), &event);
-        if (event.type != MapRequest) continue;  // and configures nothing
+        if (event.type != MapRequest) continue;  // other events configure nothing
         XMoveWindow(display_.get(), event.xmaprequest.window, 50, 40);
         XMapWindow(display_.get(), event.xmaprequest.window);
         XFlush(display_.get());

@@ -97,7 +97,7 @@ Parts parts_of(const Record& record) {
   return parts;
 }
 
-// ---- something else, and valid ----
+// ---- a different valid value ----
 
 inline void change(bool& value) { value = !value; }
 inline void change(float& value) { value = value == 0.0F ? 0.25F : 1.5F * value; }

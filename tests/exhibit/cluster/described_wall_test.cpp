@@ -234,7 +234,7 @@ TEST_F(DescribedWall, ComesBackFromASession) {
 
 // In one of the wall's pictures at least.
 TEST_F(DescribedWall, ChangesTheDigestOfTheFrame) {
-  std::vector<Moment> walls{moment(Centerpiece::Instrument)};  // with an image in the place of the curve
+  std::vector<Moment> walls{moment(Centerpiece::Instrument)};  // wall with an image in the place of the curve
   for (const Centerpiece centerpiece : core::kEnumerators<Centerpiece>) {
     walls.push_back(moment(centerpiece));
     walls.back().scan = nullptr;

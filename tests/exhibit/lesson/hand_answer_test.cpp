@@ -57,7 +57,7 @@ TEST_F(HandAnswerTest, GoesUpAScaleWithTheHand) {
   answer_.ask(21, Layout::Scale, 10);
   moves(0.000, 0.0085);
   EXPECT_EQ(answer_.marked(), 12U);
-  answer_.set_marked(3);  // by a key
+  answer_.set_marked(3);  // mark set by a key
   moves(0.0085, 0.003);
   EXPECT_EQ(answer_.marked(), 2U);
   moves(0.003, -0.100);

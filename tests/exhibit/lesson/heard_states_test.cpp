@@ -29,7 +29,7 @@ using Wants = LessonPrompt::Wants;
 
 constexpr double kTickS = 1e-3;
 constexpr double kHandMPerS = 0.01;
-constexpr std::size_t kHeardSamples = 4096;  // 85 ms, of which a learner takes the pitch
+constexpr std::size_t kHeardSamples = 4096;  // 85 ms, enough for a learner to hear the pitch
 
 class DeafOrNot : public ::testing::TestWithParam<bool> {
  protected:

@@ -30,7 +30,7 @@ std::string step(const std::string& keys) { return "[[step]]\nid = \"one\"\n" + 
 
 struct Refusal {
   std::string text;
-  std::string message;  // with line and key
+  std::string message;  // expected message, with line and key
 };
 
 class LessonFile : public ::testing::TestWithParam<Refusal> {

@@ -76,8 +76,8 @@ TEST_F(LessonRunTest, GoesOnByItselfWhenTheServosEventsMeetTheCriterion) {
   EXPECT_EQ(run.prompt(0).wants, Wants::Cycle);
   EXPECT_EQ(run.prompt(0).material, 0U);
   run.go_on(1);
-  run.happened(event(physics::EventKind::JumpOffContact, 0), 2);  // it never snapped in
-  feel(run, 1, 3);                                                // another material
+  run.happened(event(physics::EventKind::JumpOffContact, 0), 2);  // no cycle, since the tip never snapped in
+  feel(run, 1, 3);                                                // cycle on another material
   run.happened(event(physics::EventKind::Slip, 0), 4);
   EXPECT_TRUE(rows_.empty());
   feel(run, 0, 5);
@@ -122,7 +122,7 @@ TEST_F(LessonRunTest, HidesTheSampleToIdentifyAndKeepsPracticeApart) {
       continue;
     }
     ASSERT_EQ(prompt.answers, (std::vector<std::string>{"Mica", "Silicon nitride"}));
-    run.answer(7, now_s);  // there is no such answer
+    run.answer(7, now_s);  // no effect, since there is no such answer
     run.answer(0, now_s += 1);
     const TrialRow& row = rows_.back();
     EXPECT_EQ(row.response, "mica");
@@ -201,7 +201,7 @@ TEST_F(LessonRunTest, AsksForConsentFirstAndKeepsNothingWithoutIt) {
   auto refused = this->run({.ask_consent = true});
   EXPECT_FALSE(refused.consented());
   EXPECT_THAT(refused.prompt(0).words, HasSubstr("Do you take part?"));
-  refused.go_on(1);  // is no answer
+  refused.go_on(1);  // no answer
   EXPECT_FALSE(refused.end());
   refused.answer(1, 2);
   EXPECT_EQ(refused.end(), LessonEnd::Withdrew);
@@ -276,7 +276,7 @@ TEST_F(LessonRunTest, OffersTheBreakToSomebodyWhoStaysOnATextOrAQuestion) {
   EXPECT_EQ(run.prompt(1199).wants, Wants::GoOn);
   run.watch_time(1200);
   ASSERT_EQ(run.prompt(1200).answers.size(), 2U);
-  run.answer(1, 1201);  // a key that was meant for what was shown before stops nothing
+  run.answer(1, 1201);  // no effect, since the key was meant for the prompt before
   run.answer(0, 1300);
   EXPECT_EQ(run.prompt(1300).wants, Wants::GoOn) << "nor does it end the break";
   run.go_on(1310);

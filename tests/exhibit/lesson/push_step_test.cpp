@@ -135,7 +135,7 @@ TEST_F(PushStep, IsDarkFromTheFirstTouchUntilABlindPushIsDone) {
   EXPECT_TRUE(run.prompt(now_s_).dark);
   EXPECT_FALSE(run.prompt(now_s_).hidden) << "with tones";
   EXPECT_FALSE(run.prompt(now_s_).far_enough);
-  pages_[0].poses[0].x_m += 110e-9;  // the line is 100 nm long
+  pages_[0].poses[0].x_m += 110e-9;  // end of the line, which is 100 nm long
   pages_[0].poses[0].y_m -= 3e-9;
   tick(run, HandForce::Full, 0, 0.0);
   run.look(pages_, now_s_);
@@ -159,7 +159,7 @@ TEST_F(PushStep, IsDarkAndSilentWhileAThresholdIsFelt) {
   EXPECT_TRUE(run.prompt(now_s_).dark && run.prompt(now_s_).hidden);
   lift(run);
   EXPECT_FALSE(run.end()) << "no answer yet";
-  for (int i = 0; i < 1200; ++i) tick(run, HandForce::Full, 1, 0.0);  // 0.2 nN
+  for (int i = 0; i < 1200; ++i) tick(run, HandForce::Full, 1, 0.0);  // force of 0.2 nN
   lift(run);
   ASSERT_EQ(run.end(), LessonEnd::Finished);
   EXPECT_EQ(rows_.at(0).stimulus, "threshold");

@@ -115,7 +115,7 @@ TEST_F(StatesOfASwing, ChangeOnceEachWayInACycle) {
   lesson_.steps[0].trials = 2;
   auto run = this->run();
   run.force_is(HandForce::Full, 1);
-  run.happened(jump(physics::EventKind::JumpToAttraction), 1);  // it never became repulsive
+  run.happened(jump(physics::EventKind::JumpToAttraction), 1);  // no cycle, since the swing never became repulsive
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(run.end(), std::nullopt);
     run.happened(jump(physics::EventKind::JumpToRepulsion), 2 + i);

@@ -35,7 +35,7 @@ const Phrases& english() {
 
 // Round hills, 2 nm high.
 double hills_m(double x_m, double y_m) {
-  constexpr double kWaveM = 2e8;  // radians
+  constexpr double kWaveM = 2e8;  // wave number in radians per metre
   return 1e-9 * (std::sin(kWaveM * x_m) + std::cos(1.3 * kWaveM * y_m));
 }
 
@@ -61,7 +61,7 @@ class Ticks {
       sample.time_ns = static_cast<std::int64_t>(tick_) * 1'000'000;
       sample.phase = physics::Phase::Attached;
       sample.surface = {.xy_m = {x_m, y_m}, .height_m = hills_m(x_m, y_m)};
-      sample.tip.z_m = 1e-9 - sample.surface.height_m;  // the hand keeps its height
+      sample.tip.z_m = 1e-9 - sample.surface.height_m;  // constant height of the hand
       sample.tip.deflection_m = 0.1 * sample.tip.z_m;
       sample.lateral_force_n = {2e-9, -1e-9};
       sample.scan = {.time_ns = sample.time_ns, .hand = ScanHand::Scans, .feedback = feedback_ ? 1U : 0U};
@@ -113,7 +113,7 @@ TEST(HandScan, PaintsWhatTheHandPassesAndLeavesTheRestEmpty) {
     std::vector<TipSample> samples;
     ticks.line(10e-9, samples);
     for (const TipSample& sample : samples) scan.follow_hand(sample);
-    scan.advance(1.0);  // does nothing: the hand is the scanner
+    scan.advance(1.0);  // no effect, since the hand is the scanner
     EXPECT_NEAR(scan.seen_share(), 2.0 / LiveScan::kPixels, 1e-3);
     const ScanMaps& maps = scan.maps();
     for (const double x_m : {-20e-9, 3e-9, 17e-9}) {
@@ -313,7 +313,7 @@ TEST(LeadingScan, LeavesTheWayBackToTheForceToTheProcedure) {
       EXPECT_EQ(hand_guidance(painted, tip, english()), std::nullopt);
     }
   }
-  tip.phase = physics::Phase::Attached;  // it paints without a force, too
+  tip.phase = physics::Phase::Attached;  // painting works without a force, too
   EXPECT_THAT(hand_guidance(painted, tip, english()).value_or(""), testing::StartsWith("Your hand takes the image"));
 }
 

@@ -108,7 +108,7 @@ TEST_P(ScanOfAMaterial, ShowsEveryArtefactNamesItsCauseAndIsCleanAgainAfterwards
   constexpr std::size_t kWithoutKeys = 3;  // none, and two of tapping mode, whose keys are in tapped_scan_test.cpp
   EXPECT_EQ(kArtefacts.size() + kWithoutKeys, core::kEnumerators<physics::ScanArtefact>.size())
       << "a new cause needs its keys here";
-  constexpr double kLines = 10;  // more than are judged
+  constexpr double kLines = 10;  // number above that of the judged lines
   LiveScan scan = scan_of(GetParam());
   scan_lines(scan, kLines);
   ASSERT_EQ(cause_of(scan), None);
@@ -241,7 +241,7 @@ TEST(LiveScan, IsTheSameAgainFromWhatASessionRecords) {
   scan_lines(scan, 20);
   scan.step(ScanRow::Gain, 1);
   scan.step(ScanRow::Noise, 2);
-  scan_lines(scan, 60);  // into the next frame
+  scan_lines(scan, 60);  // lines into the next frame
   scan.step(ScanRow::SecondApex, 1);
   scan.show_truth(true);
   for (int i = 0; i < 3; ++i) {

@@ -160,7 +160,7 @@ TEST_F(MapPictureTest, SaysWhatIsFeltOfAWholeMapBelowTheTip) {
   felt.poisson = 0.5;
   felt.grid = map_.grid();
   felt.is_filled.assign(6, false);
-  felt.is_filled[5] = true;  // the right end of the lower row
+  felt.is_filled[5] = true;  // right end of the lower row
   const auto library = scene::load_materials(support::source("assets/materials.toml")).value();
   const auto fit = [](const curves::RecordedCurve& curve) {
     const bool doubtful = curve.metadata.pixel->column == 1 && curve.metadata.pixel->row == 0;

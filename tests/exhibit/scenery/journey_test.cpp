@@ -356,7 +356,7 @@ TEST(JourneyTravel, InStepsChangesTheScaleOnlyWhereNothingIsSeen) {
   JourneyTravel travel(JourneyTravel::Motion::Steps);
   std::int64_t now_ns = 5'000'000'000;
   travel.update(now_ns);
-  std::set<double> clear;  // the scales at which everything was seen
+  std::set<double> clear;  // scales at which everything was visible
   double before = 0.0;
   for (const int steps : {1210, 300, 2200, 3000}) {
     travel.turn_round(now_ns);

@@ -37,7 +37,7 @@ TEST(PushEar, HearsTheForceAndTheSideOfAParticle) {
   for (int i = 0; i < 50; ++i) EXPECT_EQ(pushed.step(-1e-9, 0.0), PushEar::Astray::No);
   EXPECT_DOUBLE_EQ(pushed.push().force_n, 1e-9);
   EXPECT_NEAR(pushed.push().side, 0.0, 1e-12);
-  pushed.step(-0.9e-9, -0.436e-9);  // a particle on the left, 26 degrees off the way
+  pushed.step(-0.9e-9, -0.436e-9);  // particle on the left, 26 degrees off the path
   EXPECT_NEAR(pushed.push().side, -0.436, 0.001);
   EXPECT_EQ(pushed.step(-0.8e-9, -0.6e-9), PushEar::Astray::Left);
   EXPECT_EQ(pushed.step(-0.7e-9, -0.7e-9), PushEar::Astray::No) << "said once";
@@ -105,7 +105,7 @@ class BlindHand {
     bench_.go(hand_m_.x, hand_m_.y, 0.001, 0.3);
     rho_m_ = test::touch_m(test::two_particles().particles);
     const double scale = bench_.renderer.tip_push()->hand_m_per_m;
-    while (hand_m_.x < scale * (-80e-9 + 2.7 * rho_m_)) push();  // rho behind the sphere, and bent by the rest
+    while (hand_m_.x < scale * (-80e-9 + 2.7 * rho_m_)) push();  // rho behind the sphere, plus the bend
   }
 
   const scene::ParticlePose& sphere() { return pose_ = bench_.pose(0); }
@@ -113,9 +113,9 @@ class BlindHand {
 
  private:
   static constexpr double kBesideM = 0.0008;    // 0.1 rho in the hand
-  static constexpr int kFrame = 10, kLate = 3;  // ticks of a step of the hand; steps by which it hears late
-  static constexpr double kStepM = 6e-5;        // way of the hand in a step
-  static constexpr double kTurn = 2.0;          // slope of its way by the side of the particle
+  static constexpr int kFrame = 10, kLate = 3;  // ticks of a step of the hand; number of steps of its delay
+  static constexpr double kStepM = 6e-5;        // path of the hand per step
+  static constexpr double kTurn = 2.0;          // slope of its path as a function of the side of the particle
 
   void push() {
     hand_m_.x += kStepM;

@@ -110,7 +110,7 @@ TEST(SoundTime, FollowsACardWhoseClockIsNotTheSystems) {
   double worst_ms = 0;
   constexpr double kFastCard = 1.0002;
   for (std::int64_t block = 0; block < 20'000; ++block) {
-    const std::int64_t late_ns = block % 3 == 0 ? 3'000'000 : 0;  // it asks now and then later
+    const std::int64_t late_ns = block % 3 == 0 ? 3'000'000 : 0;  // requests that are sometimes late
     clock.asked(block * 256, now_ns + late_ns);
     if (block > 500) {
       const double heard_ns = static_cast<double>(sample_at(now_ns, clock.start_ns()) - block * 256) / 48e3 * 1e3;

@@ -10,7 +10,7 @@
 
 namespace afm::test {
 
-// The driver's thread is the test, which runs one of its cycles in each tick.
+// Driver with a thread that is replaced by the test, which runs one of its cycles in each tick.
 struct DhdMock {
   using Device = haptics::DhdDevice;
   using Health = haptics::DhdHealth;

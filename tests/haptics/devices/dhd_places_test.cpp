@@ -34,7 +34,7 @@ TEST(DhdPlaces, PullDownwardsAlongTheLibrarysAxes) {
   DhdBench bench;
   bench.hold_attached();
   const auto force = DhdMock::force();
-  EXPECT_LT(force[2], -0.5);  // down
+  EXPECT_LT(force[2], -0.5);  // downward force
   EXPECT_NEAR(std::hypot(force[0], force[1]), 0.0, 1e-3);
 }
 

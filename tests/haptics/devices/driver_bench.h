@@ -37,7 +37,7 @@ class DriverBench {
  public:
   DriverBench() : DriverBench([] {}) {}
 
-  // `prepare` shapes the mock before the device is opened.
+  // Opens the bench; `prepare` configures the mock before the device is opened.
   template <class Prepare>
   explicit DriverBench(Prepare prepare)
       : segment(std::move(*scene::SharedSegment::create(paper_model(), 0))), renderer(segment.renderer_side()) {
@@ -83,7 +83,7 @@ class DriverBench {
     for (int i = 0; i < ticks; ++i) tick();
   }
 
-  // Straight to this height above the contact point, at 0.1 m/s.
+  // Moves straight to this height above the contact point, at 0.1 m/s.
   void move_to(double height_mm) {
     while (std::abs(height_mm - height_mm_) > 1e-9) {
       height_mm_ += std::clamp(height_mm - height_mm_, -0.1, 0.1);
@@ -106,7 +106,7 @@ class DriverBench {
     ASSERT_EQ(state().servo_state, scene::ServoState::Running);
   }
 
-  // The tip hangs on mica and pulls the hand down with more than half a newton.
+  // Makes the tip hang on mica and pull the hand down with more than half a newton.
   void hold_attached() {
     arm();
     move_to(-5);

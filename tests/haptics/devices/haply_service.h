@@ -26,21 +26,21 @@ class HaplyService {
 
   std::uint16_t port() const;
 
-  // Ends the connection, as a service does that is restarted.
+  // Ends the connection, like a restarted service.
   void hang_up();
   // Number of states sent so far.
   unsigned states() const;
 
   struct Force {
     double x, y, z;  // the service's axes
-    std::string id;  // device to which it was sent
+    std::string id;  // device that received the force
   };
   std::vector<Force> forces() const;
 
   std::atomic<Manner> manner;
   std::atomic<double> up_m{0.18};  // height of the cursor
   std::atomic<bool> button{false};
-  std::atomic<bool> second_only{false};  // the Inverse3 has left the crowd
+  std::atomic<bool> second_only{false};  // true: the Inverse3 has left the crowd
 
  private:
   class Server;

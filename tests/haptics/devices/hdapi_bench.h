@@ -10,7 +10,7 @@
 
 namespace afm::test {
 
-// The mock's scheduler calls the device once in each tick.
+// Driver with a scheduler that is replaced by the mock, which calls the device once in each tick.
 struct HdapiMock {
   using Device = haptics::HdapiDevice;
   using Health = haptics::HdapiHealth;

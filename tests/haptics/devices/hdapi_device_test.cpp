@@ -78,7 +78,7 @@ TEST(HdapiDevice, LetsACycleBeFeltWithinTheDriversLimits) {
   EXPECT_EQ(bench.events.size(), 2U);
   EXPECT_NEAR(bench.largest_force_n, 2.0, 0.01);
   EXPECT_LE(bench.largest_force_n, force_cap_n(bench.device->spec()));
-  EXPECT_LE(bench.largest_step_n, 0.5 + 1e-12);  // governor's limit
+  EXPECT_LE(bench.largest_step_n, 0.5 + 1e-12);  // limit of the governor
   EXPECT_EQ(bench.health(), HdapiHealth::Ready);
 }
 

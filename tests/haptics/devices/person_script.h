@@ -9,7 +9,7 @@
 
 namespace afm::support {
 
-// What a person does with the device of a mock, again and again: lines "seconds x_mm y_mm z_mm buttons", to the right,
+// Actions of a person with the device of a mock, repeated: lines "seconds x_mm y_mm z_mm buttons", to the right,
 // up and towards the user, with straight paths between them.
 class PersonScript {
  public:
@@ -18,7 +18,7 @@ class PersonScript {
     int buttons = 0;
   };
 
-  // Reads the file; false if it has no line. Allocates, as nothing else here.
+  // Reads the file; false if it has no line. The only function here that allocates.
   bool load(const char* file_name) {
     std::ifstream file(file_name);
     KeyFrame key;
@@ -31,7 +31,7 @@ class PersonScript {
   bool empty() const { return keys_.empty(); }
   void clear() { keys_.clear(); }
 
-  // Not of an empty script.
+  // Moment of a script that is not empty.
   Moment at(double played_s) const {
     const double whole = keys_.back().seconds;
     const double seconds = whole > 0 ? std::fmod(played_s, whole) : 0.0;

@@ -104,7 +104,7 @@ TEST(FeltCarry, AForceThatIsRemovedLeavesTheSphereWhereItWasLifted) {
   Hand hand(*set);
   hand.pick_up();
   ASSERT_EQ(hand.felt.push().state, PushState::Carried);
-  const double lifted_m = hand.pose(0).x_m;  // the tip rose straight up
+  const double lifted_m = hand.pose(0).x_m;  // place to which the tip rose straight up
   hand.go(300e-9, 0.0, hand.high_m);
   EXPECT_FALSE(hand.felt.take_back()) << "not while it hangs";
   hand.felt.lift();
@@ -122,7 +122,7 @@ TEST(FeltCarry, AServoThatGoesOnLaysASphereThatHungWhereThereIsRoom) {
   const auto set = std::make_unique<const SharedParticles>(test::particles_to_lift({{0.0, 0.0}, {120e-9, 0.0}}));
   Hand hand(*set);
   hand.pick_up();
-  hand.go(118e-9, 3e-9, hand.high_m);  // over the other sphere
+  hand.go(118e-9, 3e-9, hand.high_m);  // place over the other sphere
   std::vector<scene::ParticlePage> pages(hand.felt.pages().begin(), hand.felt.pages().end());
   FeltParticles next(*set, hand.scale);
   next.resume(pages);

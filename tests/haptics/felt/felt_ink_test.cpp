@@ -123,7 +123,7 @@ TEST(FeltInk, TakesStrokesBackTileByTile) {
   EXPECT_NE(first, bare);
   hand.go(60.0, 20.0, -10.0, 20.0);
   hand.wait(900);
-  hand.go(60.0, 20.0, 300.0, 200.0);  // before all of it is published
+  hand.go(60.0, 20.0, 300.0, 200.0);  // lift before everything is published
   EXPECT_EQ(hand.felt().push().strokes, 2U);
   EXPECT_TRUE(hand.felt().take_back());
   hand.lift();
@@ -194,7 +194,7 @@ TEST(FeltInk, ClosedPathsGiveTheHandNoEnergy) {
       for (int i = 1; i <= ticks; ++i) {
         const glm::dvec3 at = from + (to - from) * (static_cast<double>(i) / ticks);
         const double force_n = hand.at(at.x, at.y, at.z).push_n.z;
-        work_j -= 0.5 * (force_n + before_n) * (at.z - z_nm) * kNm;  // by the hand
+        work_j -= 0.5 * (force_n + before_n) * (at.z - z_nm) * kNm;  // work of the hand
         before_n = force_n;
         x_nm = at.x, y_nm = at.y, z_nm = at.z;
       }

@@ -69,7 +69,7 @@ struct Hand {
   SharedParticles particles;
   ParticleScale scale;
   FeltParticles felt;
-  std::unique_ptr<haptics::ContactModel> model, bare;  // with the particles, and without
+  std::unique_ptr<haptics::ContactModel> model, bare;  // models with and without the particles
 };
 
 bool same_bits(const Touch& a, const Touch& b) {
@@ -276,7 +276,7 @@ TEST(FeltParticles, NeverGiveMoreThanASampledSpring) {
 // Strokes of the hand about a sphere that sticks to the tip, each of which ends above: none gives energy.
 TEST(FeltParticles, GiveNoEnergyOnAClosedStrokeWhenTheyStick) {
   const int strokes = support::deep() ? 200 : 50;
-  for (const double shear_pa : {10e6, 100e6}) {  // dragged, and torn off
+  for (const double shear_pa : {10e6, 100e6}) {  // shear strengths for a drag, and for a torn contact
     scene::SharedSpecies gold = test::gold_species();
     gold.shear_strength_pa = shear_pa;
     gold.sticks = 1;

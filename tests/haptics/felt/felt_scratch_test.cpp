@@ -132,7 +132,7 @@ TEST(FeltScratch, WithoutLossesBeforeALeverStaysRaised) {
   ScratchingHand hand;
   hand.lift();
   hand.go(-100.0, 0.0, 1.0, 0.5);
-  hand.go(-60.0, 0.0, -50.0, 1.7);  // down while it is too fast
+  hand.go(-60.0, 0.0, -50.0, 1.7);  // motion down while the hand is too fast
   for (int i = 0; i < 500; ++i) hand.at(-60.0, 0.0, -50.0);
   EXPECT_EQ(hand.felt().last().load.si, 0.0);
   EXPECT_GT(hand.felt().push().rise_m, 40e-9);

@@ -20,7 +20,7 @@
 
 namespace afm::test {
 
-// A rubber under a tip of 30 nm.
+// Contact with a rubber under a tip of 30 nm.
 inline scene::SharedContact rubber(physics::Law law) {
   scene::SharedContact material;
   material.name = scene::to_name("rubber");
@@ -34,7 +34,7 @@ inline scene::SharedContact rubber(physics::Law law) {
 }
 
 // Spacing of the points of a map of the rubber that is as wide in the hand as a sample on the wall: 82 mm. The laws of
-// a map take a second to compute: once for each law.
+// a map take a second to compute, so this does it once per law.
 inline double hilly_spacing_m(physics::Law law, const scene::SharedLawMap& map) {
   constexpr double kWidthOfStroke = 1.65;
   static std::map<physics::Law, double> known;
@@ -64,10 +64,10 @@ inline std::unique_ptr<scene::SharedLawMap> hilly_map(const scene::SharedContact
   return map;
 }
 
-// A tip over a map, at 1000 ticks per second.
+// Duration of a tick over a map.
 inline constexpr double kMapTickS = 1e-3;
 
-// That of hilly_map() of the same rubber.
+// Model of hilly_map() of the same rubber.
 inline std::unique_ptr<haptics::ContactModel> hilly_model(const scene::SharedContact& rubber,
                                                           const haptics::DeviceSpec& device) {
   const auto map = hilly_map(rubber);
@@ -84,7 +84,7 @@ inline void lift(haptics::ContactModel& model) {
   model.step({0.0, 0.0, 0.07}, {.elapsed_s = kMapTickS});
 }
 
-// Largest energy that the law stores on the way down in the middle of the map.
+// Largest energy stored by the law on the way down in the middle of the map.
 inline double largest_j(haptics::ContactModel& model) {
   lift(model);
   double largest = 0.0;
@@ -94,7 +94,7 @@ inline double largest_j(haptics::ContactModel& model) {
   return largest;
 }
 
-// The hand's places, tick by tick, straight from corner to corner of a triangle, at rest at each of them.
+// Places of the hand, tick by tick, straight from corner to corner of a triangle, at rest at each corner.
 template <class Place>
 void go_round(const std::array<glm::dvec3, 3>& corners, double mean_m_per_s, const Place& place) {
   for (std::size_t leg = 0; leg < corners.size(); ++leg) {
@@ -112,8 +112,8 @@ struct TakenEnergy {
   double sum_j = 0.0;
 };
 
-// Work on a hand that goes round small triangles, drawn at random over the map up to `highest_m`: `work_j` of corners
-// and mean speed.
+// Work on a hand that moves around small triangles, drawn at random over the map up to `highest_m`; `work_j` takes the
+// corners and the mean speed.
 template <class Work>
 TakenEnergy ten_thousand_paths(double highest_m, const Work& work_j) {
   std::mt19937 random(5);

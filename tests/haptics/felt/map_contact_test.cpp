@@ -80,10 +80,10 @@ class Loop {
 };
 
 struct Ridden {
-  double work_j = 0;      // on the hand
+  double work_j = 0;      // work on the hand
   double most_j = 0;      // largest stored energy
-  double excess_j = 0;    // seen by the observer at most
-  double sideways_n = 0;  // largest
+  double excess_j = 0;    // largest excess seen by the observer
+  double sideways_n = 0;  // largest sideways force
   int jumps = 0;
 };
 

@@ -25,7 +25,7 @@ namespace map_law_test {
 using physics::Law;
 using physics::Phase;
 
-constexpr double kTopM = 0.06;  // above every jump
+constexpr double kTopM = 0.06;  // height above every jump
 constexpr double kHandMPerM = 1.5e5, kHandNPerN = 4e6;
 constexpr std::size_t kColumns = 4, kRows = 3;
 
@@ -39,7 +39,7 @@ MapLaw::Law law_of(Law name, std::size_t column, std::size_t row) {
   contact.tip_radius = physics::Length(30e-9);
   contact.spring_constant = physics::Stiffness(0.2);
   contact.sample_stiffness = physics::Stiffness(HUGE_VAL);
-  contact.hamaker = physics::Energy(3e-20 * std::pow(2.0, static_cast<double>(row)));  // moves the jump in
+  contact.hamaker = physics::Energy(3e-20 * std::pow(2.0, static_cast<double>(row)));  // factor that moves the jump in
   contact.mean_surface_energy = physics::SurfaceEnergy(0.01 * std::pow(2.0, static_cast<double>(row)));
   contact.reduced_modulus = physics::Pressure(1e6 * std::pow(8.0, static_cast<double>(column)));
   const auto tables = physics::build_law_tables(name, contact);

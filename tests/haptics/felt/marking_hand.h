@@ -16,7 +16,7 @@
 
 namespace afm::test {
 
-// A hand on a sample that keeps marks, at 1000 ticks per second.
+// A hand on a sample with permanent marks, at 1000 ticks per second.
 class MarkingHand {
  public:
   static constexpr double kTickS = 1e-3;
@@ -36,7 +36,7 @@ class MarkingHand {
     return push;
   }
 
-  // On a straight line; the newest tick.
+  // Moves on a straight line; returns the newest tick.
   haptics::ParticlePush go(double x_nm, double y_nm, double z_nm, double nm_per_tick) {
     const glm::dvec3 from = at_nm_, way = glm::dvec3(x_nm, y_nm, z_nm) - from;
     const int ticks = std::max(1, static_cast<int>(std::ceil(glm::length(way) / nm_per_tick)));

@@ -136,7 +136,7 @@ TEST(ServoTools, ChangesEverySettingWithoutForceAndKeepsThePlaces) {
   EXPECT_EQ(as_set.settings, scene::PushSettings{.tool = scene::PushTool::Push});
   struct Change {
     scene::PushSettings settings;
-    double least, most;  // threshold, in that of the set
+    double least, most;  // limits of the threshold, relative to that of the set
   };
   // at rest and unloaded, gold gives at 14 times the force by Amontons; it moves at half of it; a meniscus makes the
   // contact larger, water makes it smaller

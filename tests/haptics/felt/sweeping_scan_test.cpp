@@ -22,7 +22,7 @@ using scene::ScanHand;
 using scene::ScanLead;
 
 constexpr double kTickS = 0.001;
-constexpr std::uint32_t kGentlePn = 67, kHardPn = 68;  // N24: 67.9 pN
+constexpr std::uint32_t kGentlePn = 67, kHardPn = 68;  // limits around 67.9 pN (N24)
 
 ScanLead look_at(double half_m, std::uint32_t load_pn) {
   return {.height_m = half_m, .hand = ScanHand::Looks, .load_pn = load_pn};

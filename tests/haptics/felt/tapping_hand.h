@@ -15,7 +15,7 @@
 
 namespace afm::test {
 
-// The sample of docs/tapping.md under a lever of 40 N/m at 300 kHz, Q = 400, A0 = 20 nm.
+// Contact with the sample of docs/tapping.md under a lever of 40 N/m at 300 kHz, Q = 400, A0 = 20 nm.
 inline scene::SharedContact tapped_polymer() {
   scene::SharedContact material;
   material.name = scene::to_name("polymer");
@@ -33,7 +33,7 @@ inline scene::SharedContact tapped_polymer() {
   return material;
 }
 
-// The program's mica in water under a lever of 2 N/m at 30 kHz, A0 = 20 nm.
+// Contact with the program's mica in water under a lever of 2 N/m at 30 kHz, A0 = 20 nm.
 inline scene::SharedContact tapped_mica(double quality_factor) {
   scene::SharedContact material = tapped_polymer();
   material.name = scene::to_name("mica");
@@ -48,12 +48,12 @@ inline scene::SharedContact tapped_mica(double quality_factor) {
   return material;
 }
 
-// A hand on a lever that taps, with the observer's damping as the governor adds it.
+// A hand on a lever in tapping mode, with the observer's damping added as by the governor.
 class TappingHand {
  public:
   static constexpr double kPeriodS = 1e-3;
 
-  // What a path has given to the hand.
+  // Energy that a path has given to the hand.
   struct Given {
     double push_j = 0,
            mean_j = 0;  // energy of the felt push with its damping; energy of the mean force, if that were felt
@@ -94,7 +94,7 @@ class TappingHand {
     const haptics::PassivityObserver::Law law = model_->energy(touch);
     given.push_j += damped_n * moved_m;
     given.mean_j += mean_n_ * moved_m;
-    // as in the governor: a tick in which the branch changes does not count
+    // as in the governor: ticks with a change of branch do not count
     if (touch.response.phase == phase_) {
       observer_.integrate({.moved_m = {0.0, 0.0, moved_m},
                            .wanted_n = {0.0, 0.0, push_n_},
@@ -115,7 +115,7 @@ class TappingHand {
   double at_m_ = 0, push_n_ = 0, mean_n_ = 0, stored_j_ = 0;
 };
 
-// The most that random closed paths have given.
+// Largest energy given by random closed paths.
 inline TappingHand::Given worst_of(const scene::SharedContact& material, int paths) {
   TappingHand hand(material);
   std::mt19937 random(9);

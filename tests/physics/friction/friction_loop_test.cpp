@@ -70,7 +70,7 @@ TEST(FrictionLoop, IsTheLastClosedOneWhileTheNextStrokeStillSticks) {
   tip.land({});
   auto run = cycles(tip, [](auto& t, const Sideways<Length>& to) { t.move_to(to, 0.7_nN); }, 10e-9, 2000);
   const std::size_t closed = run.size() - 1;
-  for (int i = 1; i <= 202; ++i) {  // not as far as it sticks at both ends
+  for (int i = 1; i <= 202; ++i) {  // path shorter than the sticking at both ends
     const Length x(10e-9 * i / 2000.0);
     tip.move_to({x, Length()}, 0.7_nN);
     run.push_back({x, -tip.force().x});

@@ -18,9 +18,9 @@
 namespace afm::physics {
 
 struct SineLattice {
-  Length period;     // a
-  Energy amplitude;  // E0, from a well to the saddle between two
-  Stiffness spring;  // k
+  Length period;     // lattice period a
+  Energy amplitude;  // E0, energy from a well to the saddle between two
+  Stiffness spring;  // spring constant k
 };
 
 inline constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -45,7 +45,7 @@ inline double potential_of(const SineLattice& lattice, double tip_m, double supp
          0.5 * lattice.spring.si * stretch_m * stretch_m;
 }
 
-// dV/dx.
+// Slope of the potential, dV/dx.
 inline double slope_of(const SineLattice& lattice, double tip_m, double support_m) {
   const double q = wave_number(lattice);
   return 0.5 * lattice.amplitude.si * q * std::sin(q * tip_m) + lattice.spring.si * (tip_m - support_m);
@@ -67,28 +67,28 @@ inline double tip_at_slip(const SineLattice& lattice) {
   return std::acos(-1.0 / slip_parameter(lattice)) / wave_number(lattice);
 }
 
-// pi E0/a, at x = a/4; if eta > 1 the slip comes later.
+// Largest lateral force, pi E0/a, at x = a/4; if eta > 1 the slip comes later.
 inline Force largest_lateral_force(const SineLattice& lattice) {
   return std::numbers::pi * lattice.amplitude / lattice.period;
 }
 
-// dF/dX of a tip at rest in a well: k eta/(1 + eta).
+// Slope of the force, dF/dX, for a tip at rest in a well: k eta/(1 + eta).
 inline Stiffness slope_at_rest(const SineLattice& lattice) {
   const double eta = slip_parameter(lattice);
   return eta / (1.0 + eta) * lattice.spring;
 }
 
-// The slip out of the well at 0, towards the well at a.
+// Slip out of the well at 0, towards the well at a.
 struct SineSlip {
-  Length support;      // place of the support, X
-  Length tip_before;   // x
-  Length tip_after;    // in the next well, even if there are more: an overdamped tip
+  Length support;      // position X of the support
+  Length tip_before;   // position x of the tip
+  Length tip_after;    // position in the next well, even if there are more: an overdamped tip
   Force force_before;  // k (X - x): (k a/2 pi) sqrt(eta^2 - 1)
   Force force_after;
   Energy lost;  // decrease of V
 };
 
-// None for eta <= 1.
+// First slip; none for eta <= 1.
 inline std::optional<SineSlip> first_slip(const SineLattice& lattice) {
   const double eta = slip_parameter(lattice);
   if (!(eta > 1.0)) return std::nullopt;

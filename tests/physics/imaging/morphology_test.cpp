@@ -143,7 +143,7 @@ TEST(Morphology, A12MakesAParticleWiderByAParaboloid) {
 TEST(Morphology, A14LeavesATrenchShallow) {
   HeightGrid trench = line(std::vector<double>(401, 0.0));
   trench.column_step_m = 0.25e-9;
-  for (std::size_t i = 161; i < 240; ++i) trench.height_m[i] = -30e-9;  // between rims that are 20 nm apart
+  for (std::size_t i = 161; i < 240; ++i) trench.height_m[i] = -30e-9;  // trench between rims that are 20 nm apart
   const HeightGrid image = image_of(trench, {.kind = TipKind::Paraboloid, .radius = Length(20e-9)});
   EXPECT_NEAR(*std::min_element(image.height_m.begin(), image.height_m.end()) / -2.5e-9, 1.0, 1e-9);
 }

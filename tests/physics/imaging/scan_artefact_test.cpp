@@ -126,7 +126,7 @@ TEST(ScanArtefact, IsRingingOnlyWhereALowerGainHasASmallerError) {
     for (const double rate_hz : {2.0, 10.0}) {
       for (const double noise_m : {0.0, 200e-12}) {
         for (const double delay_s : {0.0, 40e-6}) {
-          double clean_n = HUGE_VAL;  // error at the highest gain below that has no name
+          double clean_n = HUGE_VAL;  // error at the next lower gain without an artefact
           std::size_t named = 0, highest_clean = 0;
           for (std::size_t gain = 500; gain <= 5000; gain += 250) {
             ScanSettings settings;

@@ -49,7 +49,7 @@ StickyPad pad_at(double x_m, double y_m, double work = 0.2) {
   return {{Length(x_m), Length(y_m)}, {Length(40e-9), Length(40e-9)}, SurfaceEnergy(work)};
 }
 
-constexpr double kAside = 45e-9;  // beside the sphere, where no tip touches it
+constexpr double kAside = 45e-9;  // distance from the sphere at which no tip touches it
 constexpr double kOver = 100e-9;
 
 // Touches the sphere at (0, 0) from the side and rises.
@@ -142,7 +142,7 @@ TEST(Carry, BesideThePadItIsLiftedAgain) {
 
 TEST(Carry, WhatStaysBehindIsAnObstacleThatDoesNotMove) {
   PushSetup setup = setup_of(small_gold());
-  setup.springs.normal = Stiffness(40.0);  // it does not climb
+  setup.springs.normal = Stiffness(40.0);  // lever that does not climb
   const std::vector<PlacedParticle> placed{{0, {Length(0.0), Length(0.0)}}, {0, {Length(150e-9), Length(0.0)}}};
   PushedParticles particles(setup, placed, base_at(-kAside, 0.0, kOver));
   pick_up(particles, 1000.0);
@@ -234,7 +234,7 @@ TEST(Carry, ATipThatSetsASphereDownHasNotRiddenOverIt) {
   go(-28e-9, kOver);
   ASSERT_EQ(particles.last().state, PushState::Carried);
   go(100e-9, kOver);
-  go(100e-9, 1e-9);  // below the crest, with a soft lever
+  go(100e-9, 1e-9);  // height below the crest, with a soft lever
   EXPECT_EQ(particles.last().set_down, 1U);
   EXPECT_EQ(std::count(events.begin(), events.end(), EventKind::ParticleTouched), 1);
   EXPECT_EQ(std::count(events.begin(), events.end(), EventKind::ParticleRiddenOver), 0);
@@ -250,7 +250,7 @@ TEST(Carry, APadHoldsASphereHarder) {
   const double on_sample_n = gives_at();
   setup.pads = {pad_at(30e-9, 0.0, 0.04)};
   expect_relative(gives_at(), 2.0 * on_sample_n, 0.02);
-  setup.pads = {pad_at(60e-9, 0.0, 0.04)};  // its edge is beside the centre
+  setup.pads = {pad_at(60e-9, 0.0, 0.04)};  // pad with its edge beside the centre
   EXPECT_EQ(gives_at(), on_sample_n);
 }
 

@@ -26,9 +26,9 @@ constexpr double kRounding = 1e-12, kPlaceRounding = 1e-21;
 struct Crowd {
   const char* name;
   std::size_t particles;
-  double spacing;  // over the diameter
+  double spacing;  // ratio to the diameter
   double share_of_ticks;
-  double rods = 0.0;  // share of the particles
+  double rods = 0.0;  // fraction of the particles
 };
 
 constexpr Crowd kCrowds[] = {{"one", 1, 2.0, 0.4},
@@ -139,7 +139,7 @@ class StrayingHand {
   LeverBase next() {
     if (left_-- <= 0) {
       left_ = std::uniform_int_distribution(1, 200)(random_);
-      const double speed = std::exp(between(std::log(1e-12), std::log(12e-9)));  // m a tick
+      const double speed = std::exp(between(std::log(1e-12), std::log(12e-9)));  // metres per tick
       const double angle = between(0.0, 6.3);
       dx_ = speed * std::cos(angle);
       dy_ = speed * std::sin(angle);

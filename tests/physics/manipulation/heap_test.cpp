@@ -100,7 +100,7 @@ TEST(Heap, RestsWithoutOverlapsBeyondItsForces) {
     for (int i = 0; i < 4; ++i) particles.move_to(particles.last().base, Time(1e-3));
     const std::uint64_t before = particles.last().exhausted;
     particles.move_to(particles.last().base, Time(1e-3));
-    if (particles.last().exhausted == before) {  // within five ticks, unless the budget has ended
+    if (particles.last().exhausted == before) {  // rest within five ticks, unless the budget has ended
       EXPECT_LT(deepest_overlap_m(particles), most_overlap_m()) << push;
       ++at_once;
     }

@@ -19,7 +19,7 @@ namespace ink_test {
 
 using test::expect_relative;
 
-constexpr double kClosed = 1e-6;  // tolerance of the table, relative
+constexpr double kClosed = 1e-6;  // relative tolerance of the table
 const Ink kThiol{.molecules_per_s = 1e5, .footprint = Area(0.216e-18)};
 
 // Over 1000 x 600 nm, in squares of 2 nm.

@@ -134,7 +134,7 @@ TEST(IslandThatTheTipHolds, SlipsAlongItsRimBeyondTheStickingAngle) {
   const double step = 1e-5;
   double alpha = 0.05, travel = 0.0;
   const auto rate = [mu](double a) {
-    const double across = std::min(std::tan(a) / 3.25, mu);  // way of the middle across over that along
+    const double across = std::min(std::tan(a) / 3.25, mu);  // ratio of the middle's path across to that along
     return std::sin(a) - across * std::cos(a);
   };
   while (alpha < 0.5 * std::numbers::pi && travel < 10.0) {
@@ -322,7 +322,7 @@ TEST(Islands, GiveNoEnergyToARandomHand) {
     for (int i = 0; i < 3000; ++i, ++ticks) {
       angle += uniform(-0.4, 0.4);
       if (i % 300 == 0) speed = uniform(0.01e-9, 3e-9);
-      if (i % 150 == 149) {  // towards the middle again
+      if (i % 150 == 149) {  // return towards the middle
         angle = std::atan2((count > 1 ? 115e-9 : 0.0) - y, (count > 1 ? 230e-9 : 0.0) - x);
       }
       x += speed * std::cos(angle);

@@ -22,7 +22,7 @@ using test::flank_tip;
 using test::marking_tip;
 using test::pmma;
 
-constexpr double kClosed = 1e-6;  // tolerance of the table, relative
+constexpr double kClosed = 1e-6;  // relative tolerance of the table
 
 TEST(Marking, N59TheImprintOfAStandingTip) {
   const Length depth = imprint_depth(marking_tip(), pmma(), 50_nN), radius = imprint_radius(pmma(), 50_nN);

@@ -187,7 +187,7 @@ TEST(ParticlePicture, IsMeasuredAgainInABoxAlone) {
   after.position.x = 200_nm;
   picture.move(0, before, std::vector{after});
   const std::size_t computed = picture.computed();
-  after.position.y = 15_nm;  // its true place
+  after.position.y = 15_nm;  // true place
   const PixelBox box{74, 48, kLookLines, kLookLines};
   picture.measure(box, std::vector{after});
   EXPECT_GT(picture.computed(), 0U) << "the old footprint is outside of the box";

@@ -34,7 +34,7 @@ using test::gold;
 using test::latex;
 using test::travel_until_lost;
 
-constexpr double kClosed = 1e-6;  // tolerance of the table, relative
+constexpr double kClosed = 1e-6;  // relative tolerance of the table
 
 // Cost of the slip of a sphere at rest on the way to f_s: travel of the base, jump of the sphere, energy lost (M15).
 struct FirstSlip {
@@ -194,7 +194,7 @@ TEST(PushCases, TheMapOfSlidingAndRollingIsTheBalanceOfTenThousandMaterials) {
     ParticleSpecies species = gold();
     species.contact.tip_radius = Length(between(10e-9, 500e-9));
     species.contact.work_of_adhesion = SurfaceEnergy(between(0.01, 0.2));
-    species.law = kParticleLaws.at(static_cast<std::size_t>(i) % 3).law;  // those by area and load
+    species.law = kParticleLaws.at(static_cast<std::size_t>(i) % 3).law;  // laws by area and load
     species.shear_strength = Pressure(between(1e6, 1e8));
     species.coefficient = between(0.05, 0.5);
     species.rolling_distance = Length(between(1e-11, 5e-9));

@@ -57,7 +57,7 @@ TEST_P(AtRate, N17LatexSlidesAtItsThreshold) {
   expect_relative(tick.normal.si, 3.408954384e-09, 1e-6);
   expect_relative(lateral(tick), 3.29279708e-09, 1e-6);
   expect_relative(tick.lift.si, 8.823023185e-10, 1e-6);
-  EXPECT_LT(tick.lateral.x.si, 0.0);  // against the push
+  EXPECT_LT(tick.lateral.x.si, 0.0);  // force against the push
 }
 
 TEST_P(AtRate, N20RollsOrSlidesAsTheBalanceHasIt) {
@@ -74,7 +74,7 @@ TEST_P(AtRate, N20RollsOrSlidesAsTheBalanceHasIt) {
 
 TEST_P(AtRate, N28HoldsYieldsAndJumps) {
   ParticleSpecies species = constant(Force(3e-9), 0.5, Length(50e-9));
-  species.ageing = Time(1.0);  // long enough to slide on after the jump
+  species.ageing = Time(1.0);  // time long enough to slide on after the jump
   const PushSetup setup = setup_of(species);
   const double rho = touch_m(setup), travel = 5.475442123e-10;
   PushedParticles particles(setup, {{0, {Length(rho), Length(0.0)}}}, base_at(0.0));
@@ -109,7 +109,7 @@ TEST_P(AtRate, AgesWhileItRests) {
   const PushSetup setup = setup_of(species);
   PushedParticles particles(setup, {{0, {Length(touch_m(setup)), Length(0.0)}}}, base_at(0.0));
   drag(particles, base_at(3e-9), 100e-9, GetParam());
-  expect_relative(lateral(particles.last()), 1.5e-9, 1e-9);  // it goes on sliding
+  expect_relative(lateral(particles.last()), 1.5e-9, 1e-9);  // force of continued sliding
   EXPECT_EQ(particles.last().yields, 1U);
   const int rests = static_cast<int>(std::lround(0.1 * GetParam()));
   for (int i = 0; i < rests; ++i) particles.move_to(base_at(3e-9), Time(1.0 / GetParam()));
@@ -120,8 +120,8 @@ TEST_P(AtRate, AgesWhileItRests) {
 
 // From N31 on: the path of a sphere beside the middle.
 struct Offset {
-  double given;  // offset of the centre from the tip's path, over rho
-  double after;  // travel over rho
+  double given;  // offset of the centre from the tip's path, relative to rho
+  double after;  // travel relative to rho
 };
 
 double alpha_after(const Offset& offset, double rate_hz, double speed_m_per_s) {
@@ -201,18 +201,18 @@ TEST_P(AtRate, N75AClosedPathTakesWork) {
 // Pushes by so little, with such stiff springs, that the angles stay those of the row: by 1e-7 of rho, after a
 // thousandth of that to load the springs.
 struct Group {
-  std::vector<double> angles_deg;  // directions of the spheres that A touches, from the push
+  std::vector<double> angles_deg;  // directions from the push to the spheres that A touches
   bool pinned = false;
 };
 
-constexpr double kPush = 4e-15;       // m
-constexpr double kThreshold = 1e-10;  // N, of each sphere
+constexpr double kPush = 4e-15;       // length in m
+constexpr double kThreshold = 1e-10;  // threshold of each sphere in N
 constexpr Stiffness kStiff{1e6};
-constexpr double kAlmost = 1e-6;  // tolerance of the table, relative
+constexpr double kAlmost = 1e-6;  // relative tolerance of the table
 
 struct Pushed {
-  double force = 0.0;                   // force on the tip, over the threshold
-  std::vector<Sideways<Length>> moved;  // way in the second half of the push
+  double force = 0.0;                   // force on the tip, relative to the threshold
+  std::vector<Sideways<Length>> moved;  // path in the second half of the push
   PushState state = PushState::Free;
 };
 

@@ -18,7 +18,7 @@ inline void expect_relative(double actual, double expected, double tolerance) {
   EXPECT_NEAR(actual, expected, tolerance * std::abs(expected));
 }
 
-// Gold of 25 nm radius on mica and polystyrene of 50 nm on silicon, as the table of cases has them.
+// Gold of 25 nm radius on mica and polystyrene of 50 nm on silicon, as in the table of cases.
 inline ParticleSpecies gold() {
   ParticleSpecies species;
   const Pressure modulus = reduced_modulus({Pressure(79e9), 0.44}, {Pressure(60e9), 0.25});
@@ -36,7 +36,7 @@ inline ParticleSpecies latex() {
   return species;
 }
 
-// A sphere with one threshold at any load.
+// A sphere with the same threshold at any load.
 inline ParticleSpecies constant(Force threshold, double kinetic_ratio = 1.0, Length radius = Length(25e-9)) {
   ParticleSpecies species = gold();
   species.contact.tip_radius = radius;

@@ -26,7 +26,7 @@ using test::drag;
 using test::expect_relative;
 using test::flank_tip;
 
-constexpr double kClosed = 1e-6;  // tolerance of the table, relative
+constexpr double kClosed = 1e-6;  // relative tolerance of the table
 constexpr double kLengthM = 1e-6, kRadiusM = 2e-9, kThresholdN = 1e-9;
 
 ParticleSpecies rod_species(double kinetic_ratio = 1.0) {
@@ -55,7 +55,7 @@ PushedParticles lowered_beside(double s_m, const PushSetup& setup = thin_setup()
 }
 
 struct RodPlace {
-  double x = 0.0, y = 0.0, angle = 0.0;  // place over the length, and angle in rad
+  double x = 0.0, y = 0.0, angle = 0.0;  // place relative to the length, and angle in rad
 };
 
 RodPlace place_of(const PushedParticles& particles) {

@@ -10,7 +10,7 @@
 
 namespace afm::physics::test {
 
-// PMMA under a silicon tip, as the table of cases has them.
+// PMMA under a silicon tip, as in the table of cases.
 inline SoftSurface pmma() {
   return {.hardness = Pressure(0.3e9),
           .reduced_modulus = reduced_modulus({Pressure(165e9), 0.22}, {Pressure(3e9), 0.38}),
@@ -27,7 +27,7 @@ inline ScratchingTip on_pmma(const PushSprings& springs = {Stiffness(10.0), Stif
       base_at(0.0, 0.0, 50e-9)};
 }
 
-// Moves the base on a straight line, by `step_m` or less a tick; calls look(tick) after each.
+// Moves the base on a straight line, by at most `step_m` per tick; calls look(tick) after each.
 template <class Look>
 void scratch(ScratchingTip& tip, const LeverBase& to, double step_m, const Look& look) {
   const LeverBase from = tip.last().base;

@@ -25,7 +25,7 @@ using test::on_pmma;
 using test::pmma;
 using test::scratch;
 
-constexpr double kStep = 0.1e-9;  // a tick at 0.1 um/s and 1 kHz
+constexpr double kStep = 0.1e-9;  // step of a tick at 0.1 um/s and 1 kHz
 
 // What a tip meets on a way at about 100 nN, on the mean of its second half.
 struct Mean {

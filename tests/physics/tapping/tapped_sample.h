@@ -12,11 +12,11 @@
 
 namespace afm::physics {
 
-// A set-up in the units of the field: a DMT contact with the distance a0 = 0.165 nm, a lever of 300 kHz and its drive.
+// Set-up in the units of the field: a DMT contact with the distance a0 = 0.165 nm, a lever of 300 kHz and its drive.
 struct TappedSample {
-  double k = 40.0;          // N/m
+  double k = 40.0;          // spring constant, N/m
   double q = 400.0;         // quality factor
-  double ratio = 1.0;       // drive over resonance
+  double ratio = 1.0;       // ratio of drive to resonance
   double a0_nm = 20.0;      // free amplitude
   double r_nm = 20.0;       // tip radius
   double h_zj = 64.0;       // Hamaker constant
@@ -47,7 +47,7 @@ struct TappedSample {
   }
 };
 
-// Set-ups of air and vacuum, evenly over the orders of magnitude of each number.
+// Random set-ups in air and vacuum, evenly over the orders of magnitude of each number.
 inline TappedSample random_tapped_sample(RandomInteraction& random) {
   return {.k = random.between(0.1, 50.0),
           .q = random.between(100.0, 800.0),

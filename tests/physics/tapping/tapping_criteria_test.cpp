@@ -172,9 +172,9 @@ struct StartCase {
   std::vector<TapState> starts{};
   struct Unknown {
     DirectSwing swing;
-    double moved;  // from one swing to the next, as a share of the free amplitude
+    double moved;  // change from one swing to the next, relative to the free amplitude
   };
-  std::vector<Unknown> unknown{};  // swings that are no known state, each once
+  std::vector<Unknown> unknown{};  // swings that match no known state, without repetitions
   std::size_t averaged = 0, mapped = 0;
 };
 

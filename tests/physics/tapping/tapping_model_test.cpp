@@ -40,7 +40,7 @@ struct Tapped {
 
 struct Path {
   std::vector<ModelEvent> events;
-  double work_of_push_j = 0, work_of_mean_j = 0;  // on the hand
+  double work_of_push_j = 0, work_of_mean_j = 0;  // work on the hand
 };
 
 // From one height to another at this speed; the forces act from one tick to the next.

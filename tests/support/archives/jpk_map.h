@@ -14,11 +14,11 @@
 
 namespace afm::test {
 
-// A JPK map 3 um wide and 2 um high about (10 um, -5 um), of 3 by 2 curves, recorded there and back.
+// A JPK map 3 um wide and 2 um high about (10 um, -5 um), of 3 by 2 curves, recorded back and forth.
 inline constexpr std::size_t kMapColumns = 3, kMapRows = 2;
 inline constexpr double kMapWidthM = 3e-6, kMapHeightM = 2e-6, kMapXM = 10e-6, kMapYM = -5e-6;
 
-// Pixel of the curve with this number: 0 1 2 in the lower row, 5 4 3 in the upper one.
+// Pixel of the curve with this index: 0 1 2 in the lower row, 5 4 3 in the upper one.
 inline std::size_t map_row(std::size_t index) { return index / kMapColumns; }
 inline std::size_t map_column(std::size_t index) {
   return map_row(index) % 2 == 0 ? index % kMapColumns : kMapColumns - 1 - index % kMapColumns;
@@ -69,7 +69,7 @@ inline std::map<std::string, std::string> jpk_map(
   return entries;
 }
 
-// The same curves on a grid with so many times as many pixels a side, most of which have none.
+// Same curves on a grid with `finer` times as many pixels per side, most of which have none.
 inline std::map<std::string, std::string> on_finer_grid(std::map<std::string, std::string> entries, std::size_t finer) {
   entries["header.properties"] +=
       fmt::format("{0}ilength={1}\n{0}jlength={2}\n", "force-scan-map.position-pattern.grid.", finer * kMapColumns,

@@ -10,8 +10,8 @@
 
 namespace afm::test {
 
-// The curve of a hard sample that snaps in and tears off: with its number, the sample is 10 nm higher and its forces
-// are a tenth stronger.
+// Curve number `index` of a hard sample that snaps in and tears off; from curve to curve the sample is 10 nm higher
+// and all forces are a tenth stronger.
 inline curves::RecordedCurve sticky_curve(std::size_t index) {
   constexpr double kRiseM = 10e-9, kStronger = 0.1;
   curves::RecordedCurve curve;
@@ -24,7 +24,7 @@ inline curves::RecordedCurve sticky_curve(std::size_t index) {
   return curve;
 }
 
-// A map of them whose curve 2, at the right end of the lower row, is cut short.
+// A map of these curves in which curve 2, at the right end of the lower row, is cut short.
 inline std::map<std::string, std::string> holed_map() {
   auto entries = jpk_map(sticky_curve);
   entries["index/2/segments/1/channels/vDeflection.dat"].pop_back();

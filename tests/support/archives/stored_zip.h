@@ -18,14 +18,14 @@ inline std::uint32_t crc32_of(std::string_view bytes) {
   return ~crc;
 }
 
-// How entries say that they are packed, and what packs them.
+// Marking of packed entries, and their packer.
 struct ZipPacking {
   std::uint16_t method = 0;
   std::string (*pack)(std::string_view content) = nullptr;
 };
 
-// A zip archive of entries that are not compressed unless `packing` does so. With `claimed_size` each entry says that
-// it would unpack to so much.
+// A zip archive of entries that are not compressed unless `packing` does so. With `claimed_size` each entry claims
+// this unpacked size.
 inline std::string stored_zip(const std::map<std::string, std::string>& entries,
                               std::optional<std::uint32_t> claimed_size = {}, const ZipPacking& packing = {}) {
   std::string archive, directory;

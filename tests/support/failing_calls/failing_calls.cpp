@@ -175,7 +175,7 @@ __attribute__((destructor)) void tell_the_count() {
   say("count %ld\n", counted);
 }
 
-long as_libc(long result) { return result; }  // syscall() has set errno
+long as_libc(long result) { return result; }  // errno set by syscall()
 
 }  // namespace
 

@@ -79,7 +79,7 @@ bool waits_in_vain(std::uint64_t timeout_ns) {
 VKAPI_ATTR VkResult VKAPI_CALL queue_submit2(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* submits,
                                              VkFence fence) {
   if (lost(1)) {
-    next<PFN_vkQueueWaitIdle>("vkQueueWaitIdle")(queue);  // a lost device uses nothing any more
+    next<PFN_vkQueueWaitIdle>("vkQueueWaitIdle")(queue);  // no more use of anything by a lost device
     return VK_ERROR_DEVICE_LOST;
   }
   if (the_fault.kind == "hung") ++submissions;

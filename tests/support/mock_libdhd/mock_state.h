@@ -7,19 +7,19 @@
 
 #include "haptics/devices/person_script.h"
 
-// Hidden, so that each variant of the library has its own state.
+// Hidden visibility, so that each variant of the library has its own state.
 #pragma GCC visibility push(hidden)
 
-// The state behind the mock's two interfaces.
+// State behind the mock's two interfaces.
 namespace mock_dhd {
 
-// Numbers of the interface, written down a second time so that a slip in the program's own does not hide here.
+// Numbers of the interface, repeated here so that a slip in the program's own does not go unnoticed.
 enum : int { kComError = 2, kNoDevice = 5, kExpertModeOff = 9 };
 enum : int { kPower = 0, kConnected = 1, kStarted = 2, kReset = 3, kIdle = 4, kForce = 5, kBrake = 6, kError = 9 };
 enum : int { kForceOffCause = 14, kStatusCount = 17, kOffByWatchdog = 3 };
 
 inline constexpr int kMostDevices = 4;
-inline constexpr char kFirstId = 3;  // no index
+inline constexpr char kFirstId = 3;  // id of the first device, different from its index
 inline constexpr double kMostForceN = 2.0 + 1e-9;
 
 enum class Mode { Brake, Idle, Force };
@@ -56,7 +56,7 @@ struct Mock {
   bool unplugged = false;
   Mode mode = Mode::Brake;
   long long force_mode_delay_ns = 0;
-  long long force_mode_at_ns = -1;  // negative: not asked for
+  long long force_mode_at_ns = -1;  // time of the switch-on; negative: not requested
   int cause = 0;
   std::array<double, 3> force_n{};
   double max_force_n = -1;
@@ -78,14 +78,14 @@ struct Mock {
 extern Mock mock;
 extern std::mutex mutex;  // held by every function
 extern std::atomic<bool> blocked;
-extern std::atomic<int> caught;  // calls that do not return
+extern std::atomic<int> caught;  // number of calls that do not return
 
 void forbid(const char* violation);
 
 // Time of the device's watchdog.
 long long now_ns();
 
-// What the controller in the device does by itself.
+// Performs the autonomous actions of the device's controller.
 void run_controller();
 
 }  // namespace mock_dhd

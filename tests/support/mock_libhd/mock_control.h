@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// What a test does to the mock of the vendor's haptic library. The mock is a shared library of our own that exports the
+// Test control of the mock of the vendor's haptic library. The mock is a shared library of our own that exports the
 // 36 functions of the interface and drives a stylus that exists only in memory; a test loads it as a user's library is
 // loaded and links it for these functions.
 //
@@ -10,41 +10,41 @@
 // straight paths from the start of the scheduler, again and again. Both imply a scheduler thread.
 extern "C" {
 
-// Everything as if the library had just been loaded, with a scheduler that runs only in mock_hd_tick(). Any scheduler
+// Resets to the state after loading the library, with a scheduler that runs only in mock_hd_tick(). Any scheduler
 // thread must have been stopped.
 void mock_hd_reset(void);
 
-// From the next start of the scheduler on it is a thread of 1 kHz.
+// Makes the scheduler a thread of 1 kHz from its next start on.
 void mock_hd_use_thread(void);
 
-// One period of the scheduler, in the caller's thread: the callbacks run once if the scheduler runs and does not stall.
+// Runs one period of the scheduler in the caller's thread: the callbacks run once if it runs and does not stall.
 void mock_hd_tick(void);
 
 void mock_hd_set_position(double x_mm, double y_mm, double z_mm);
 void mock_hd_set_buttons(int buttons);
 
-// Stops the flicker of 0.1 um in the positions, as of a frozen sensor.
+// Stops the flicker of 0.1 um in the positions, like a frozen sensor.
 void mock_hd_hold_still(void);
 
 // The next `times` calls of hdInitDevice with this name (null: the default) fail with this error; with "*" any name's.
 void mock_hd_fail_init(const char* name, unsigned error, int times);
 
-// hdGetError will give this error; a device that is lost stays as it is.
+// Makes hdGetError return this error; a lost device stays lost.
 void mock_hd_push_error(unsigned error);
 
-// What hdCheckCalibration returns. hdUpdateCalibration ends a needed update.
+// Sets the result of hdCheckCalibration. hdUpdateCalibration ends a needed update.
 void mock_hd_set_calibration(unsigned status);
 
-// What hdGetDoublev gives first for this property.
+// Sets the first number that hdGetDoublev returns for this property.
 void mock_hd_set_limit(unsigned property, double value);
 
-// The first motor's temperature is no number from now on; the second has what is set for the property.
+// Makes the first motor's temperature NaN from now on; the second has the value set for the property.
 void mock_hd_break_first_sensor(void);
 
-// The scheduler's callbacks are no longer called, as if the driver hung.
+// Stops the calls of the scheduler's callbacks, as if the driver hung.
 void mock_hd_stall(int stalled);
 
-// The force on the hand now, as a real driver gives it: the last one that was set, nothing while the output is off or
+// Current force on the hand, as from a real driver: the last one that was set, zero while the output is off or
 // the scheduler stopped.
 void mock_hd_force(double newtons[3]);
 
@@ -52,7 +52,7 @@ void mock_hd_force(double newtons[3]);
 // "output_on", "output_off", "update_calibration". Null past the end.
 const char* mock_hd_call(int index);
 
-// The first use of the interface that the real library forbids, and null while there is none: a place or a force
+// First use of the interface that the real library forbids; null while there is none: a place or a force
 // outside a frame or the scheduler's thread, unpaired frames, a force that is no number, a calibration with the force
 // on, a device that is released while its scheduler runs.
 const char* mock_hd_violation(void);

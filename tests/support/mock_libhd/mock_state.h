@@ -12,10 +12,10 @@
 
 #include "haptics/devices/person_script.h"
 
-// The state behind the mock's two interfaces, and the scheduler. Nothing here allocates once the scheduler runs.
+// State behind the mock's two interfaces, and the scheduler. Nothing here allocates once the scheduler runs.
 namespace mock_hd {
 
-// Numbers of the interface, written down a second time so that a slip in the program's own does not hide here.
+// Numbers of the interface, repeated here so that a slip in the program's own does not go unnoticed.
 enum : unsigned {
   kNoError = 0,
   kInvalidEnum = 0x0100,
@@ -54,7 +54,7 @@ using Callback = unsigned (*)(void*);
 using Vector = std::array<double, 3>;
 
 struct InitFailure {
-  std::string name;  // "*": any; empty: the default device
+  std::string name;  // name of the device; "*": any; empty: the default device
   unsigned error = 0;
   int times = 0;
 };
@@ -81,17 +81,17 @@ class Mock {
   std::vector<InitFailure> init_failures;
   afm::support::PersonScript script;
   bool threaded = false;
-  bool hangs = false;  // hdInitDevice does not come back
+  bool hangs = false;  // true: hdInitDevice does not return
   double impulse_limit_n_per_ms = 2.0;
   double nominal_force_n = 3.3;
   double continuous_force_n = 0.88;
   double velocity_limit_mm_per_s = 1500.0;
   double stiffness_n_per_mm = 0.5;
-  bool first_sensor_broken = false;  // motor temperature is NaN
-  double motor_temperature = 0.2;    // negative: a device without this measurement
+  bool first_sensor_broken = false;  // true: NaN as the first motor's temperature
+  double motor_temperature = 0.2;    // negative: no such measurement
 
   std::array<std::atomic<double>, 3> position_mm;
-  std::atomic<bool> still{false};  // false: positions flicker, like those of encoders under a hand
+  std::atomic<bool> still{false};  // false: flickering positions, like those of encoders under a hand
   std::atomic<unsigned> reads{0};
   double tremor_mm() { return !still && ++reads % 2 == 0 ? 1e-4 : 0.0; }
   std::atomic<int> buttons{0};
@@ -102,7 +102,7 @@ class Mock {
   std::atomic<bool> in_frame{false};
   std::array<std::atomic<double>, 3> set_force_n;
 
-  std::mutex callbacks_mutex;  // held while they run
+  std::mutex callbacks_mutex;  // held while the callbacks run
   Callback callback = nullptr;
   void* context = nullptr;
 

@@ -21,7 +21,7 @@ class LoopbackSender {
     to_.sin_port = htons(port);
     to_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   }
-  // To a port that was free a moment ago.
+  // Sends to a port that was free a moment ago.
   LoopbackSender() : LoopbackSender(0) {
     const core::FileDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     socklen_t size = sizeof to_;
@@ -29,7 +29,7 @@ class LoopbackSender {
     EXPECT_EQ(::getsockname(probe.get(), reinterpret_cast<sockaddr*>(&to_), &size), 0);
   }
 
-  // To everybody who has joined a group, on this machine only.
+  // Sends to all members of a group, only on this machine.
   LoopbackSender(std::uint16_t port, const char* group) : LoopbackSender(port) {
     const in_addr interface{.s_addr = htonl(INADDR_LOOPBACK)};
     EXPECT_EQ(::setsockopt(socket_.get(), IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface), 0);
@@ -38,7 +38,7 @@ class LoopbackSender {
 
   std::uint16_t port() const { return ntohs(to_.sin_port); }
 
-  // Returns false if the system accepted none or not all of it, as it does without a listener.
+  // Returns false if the system did not accept all of it, as without a listener.
   bool send(const std::string& packet) const {
     return ::sendto(socket_.get(), packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to_),
                     sizeof to_) == static_cast<ssize_t>(packet.size());

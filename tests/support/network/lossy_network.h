@@ -11,13 +11,13 @@
 
 namespace afm::support {
 
-// Machines in network namespaces of the test's own, on a switch that loses and delays frames from a seed: a process
+// Machines in private network namespaces, on a switch that loses and delays frames from a seed: a process
 // that holds the other end of each machine's TAP interface. Needs the right to make namespaces; throws, saying so,
 // where there is none.
 class LossyNetwork {
  public:
   struct Line {
-    double lost = 0;  // share of the frames, in each direction
+    double lost = 0;  // fraction of the frames lost, in each direction
     double delay_ms = 0, jitter_ms = 0;
   };
 
@@ -30,17 +30,17 @@ class LossyNetwork {
 
   static std::string address(std::size_t machine) { return "10.77.0." + std::to_string(machine + 1); }
 
-  // A command line that runs on a machine.
+  // Command line that runs on a machine.
   std::vector<std::string> on(std::size_t machine, const std::vector<std::string>& command) const;
 
   void pull_cable(std::size_t machine) { shared_->out[machine] = true; }
   void plug_cable(std::size_t machine) { shared_->out[machine] = false; }
 
-  std::uint64_t lost() const { return shared_->lost; }  // frames
+  std::uint64_t lost() const { return shared_->lost; }  // number of frames lost
 
  private:
   static constexpr std::size_t kMost = 8;
-  struct Shared {  // shared with the switch
+  struct Shared {  // memory shared with the switch
     std::array<std::atomic<bool>, kMost> out{};
     std::atomic<std::uint64_t> lost{0};
   };

@@ -36,7 +36,7 @@ bool enter(const char* call, XrResult& result) {
 }
 
 namespace {
-std::set<std::string> noted;  // noted since the last line of the script
+std::set<std::string> noted;  // events noted since the last line of the script
 }
 
 void note(const std::string& what) {

@@ -16,11 +16,11 @@
 #include <string>
 #include <vector>
 
-// The stand-in runtime: what it offers, what it does when, and what it was given. All poses are those of the floor,
+// The stand-in runtime: its abilities, its script, and a log of what it received. All poses are in the floor's frame,
 // with -z ahead.
 namespace afm::stand_in {
 
-// What a swapchain's image held when it was submitted: four bytes a pixel.
+// Contents of a swapchain's image when it was submitted: four bytes per pixel.
 struct SubmittedImage {
   std::int64_t format = 0;
   std::uint32_t width = 0, height = 0, layer = 0;
@@ -29,7 +29,7 @@ struct SubmittedImage {
 struct SubmittedEye : SubmittedImage {
   XrPosef pose{};
   XrFovf fov{};
-  float near_m = 0, far_m = 0;  // distances at depth 0 and 1
+  float near_m = 0, far_m = 0;  // distances at depths 0 and 1
   std::vector<float> depths;    // one per pixel; empty if no depth was submitted
 };
 struct SubmittedQuad : SubmittedImage {
@@ -38,8 +38,8 @@ struct SubmittedQuad : SubmittedImage {
   XrCompositionLayerFlags flags = 0;
 };
 struct SubmittedFrame {
-  std::vector<SubmittedEye> eyes;    // none where the frame had no layer
-  std::vector<SubmittedQuad> quads;  // in order, over the eyes
+  std::vector<SubmittedEye> eyes;    // empty for a frame without a layer
+  std::vector<SubmittedQuad> quads;  // quads in order, over the eyes
 };
 
 struct Script {
@@ -48,7 +48,7 @@ struct Script {
   std::uint32_t images = 3;
   std::uint32_t eye_width = 256, eye_height = 192;
   bool two_layers = true;
-  bool depth = true;  // offers XR_KHR_composition_layer_depth
+  bool depth = true;  // true: offers XR_KHR_composition_layer_depth
   std::uint32_t most_layers = 16;
   bool local_floor = true, stage = true;
   float local_height_m = 1.5F;  // height of the eye-level frame above the floor
@@ -59,39 +59,39 @@ struct Script {
   bool available = true;                         // result of xrCreateInstance
   bool headset_plugged_in = true;                // result of xrGetSystem
   std::int64_t frame_ns = 0;                     // shortest duration of xrWaitFrame
-  bool blocked = false;                          // xrWaitFrame keeps it until this is false
-  bool lends = true;                             // images
-  std::map<std::string, XrResult> failing;       // calls, once each
-  std::array<std::set<std::string>, 2> pressed;  // actions, by hand
+  bool blocked = false;                          // true: xrWaitFrame does not return
+  bool lends = true;                             // true: images available
+  std::map<std::string, XrResult> failing;       // results of failing calls, once each
+  std::array<std::set<std::string>, 2> pressed;  // pressed actions, by hand
   std::array<XrPosef, 2> aims{{{{0, 0, 0, 1}, {-0.2F, 1.2F, -0.3F}}, {{0, 0, 0, 1}, {0.2F, 1.2F, -0.3F}}}};
   XrVector2f stick{0, 0};
   bool controllers = true;
 };
 
-// What the program did.
+// Log of the program's calls.
 struct Log {
   std::vector<std::string> calls;   // all calls except xrPollEvent and xrGetActionState...
-  std::vector<std::string> faults;  // against the specification
+  std::vector<std::string> faults;  // violations of the specification
   std::vector<SubmittedFrame> frames;
   int pulses = 0;
 };
 
-// Shared by the calls; a test holds the mutex while it reads or changes anything.
+// State shared by the calls; a test holds the mutex while it reads or changes anything.
 struct StandIn {
   std::mutex mutex;
   Script script;
   Log log;
-  bool keeps_frames = true;  // stores frames with their pictures
+  bool keeps_frames = true;  // true: stores frames with their pictures
 
-  // The runtime's next states, one at a time as the program asks.
+  // Queues the runtime's next state; the program gets one per request.
   void say(XrSessionState next) { states.push_back(next); }
   void begin_again();  // restores the initial state
 
-  // of the calls
+  // state of the calls
   std::deque<XrSessionState> states;
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;
   bool running = false;
-  int waited = 0, begun = 0;  // frames
+  int waited = 0, begun = 0;  // numbers of frames waited for, and begun
   bool recentered = false;
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
@@ -101,13 +101,13 @@ struct StandIn {
 };
 StandIn& stand_in();
 
-// Between the sources of the runtime.
+// Swapchain, shared by the sources of the runtime.
 struct Swapchain {
   XrSwapchainCreateInfo info{};
   std::vector<VkImage> images;
   std::vector<VkDeviceMemory> memory;
   std::uint32_t next = 0;
-  int acquired = 0;  // 1: acquired, 2: waited for
+  int acquired = 0;  // 1: acquired; 2: also waited for
   bool filled = false;
 
   bool has_depth() const { return info.format == VK_FORMAT_D32_SFLOAT; }
@@ -116,10 +116,10 @@ Swapchain* create_images(const XrSwapchainCreateInfo& info, std::uint32_t count)
 void destroy_images(Swapchain* chain);
 SubmittedImage read_image(const Swapchain& chain, std::uint32_t layer, const XrRect2Di& rect);
 std::int64_t now_ns();
-bool enter(const char* call, XrResult& result);  // logs it; false: it fails as the script says
+bool enter(const char* call, XrResult& result);  // logs the call; false: it must fail, according to the script
 void follow_script_file();
-void note(const std::string&
-              what);  // time at which it first happens after a line of the script, in that file's neighbour ".log"
+void note(
+    const std::string& what);  // event whose first time after a line of the script goes to the neighbouring file ".log"
 
 XrResult find_frame_call(const char* name, PFN_xrVoidFunction* function);
 

@@ -13,8 +13,8 @@ namespace {
 
 struct Space {
   float up_m = 0;      // height of its origin above that of its frame
-  bool local = false;  // its frame is at eye level, and moves when the headset is recentred
-  int hand = -1;       // hand of this aim
+  bool local = false;  // true: frame at eye level, which moves when the headset is recentred
+  int hand = -1;       // hand of this aim; -1: none
 
   float height_m() const { return up_m + (local ? stand_in().script.local_height_m : 0.0F); }
 };

@@ -33,7 +33,7 @@ inline scene::SharedSpecies gold_species() {
   return gold;
 }
 
-// A sphere with one threshold at any load, that slides.
+// A sliding sphere with the same threshold at any load.
 inline scene::SharedSpecies constant_species(double threshold_n, double kinetic_ratio, double radius_m = kGoldRadiusM) {
   scene::SharedSpecies species = gold_species();
   species.radius_m = radius_m;
@@ -63,7 +63,7 @@ inline scene::SharedParticles particles_at(const std::vector<PlaceM>& places,
   return particles;
 }
 
-// Spheres of 30 nm that the tip lifts off the sample, and a pad around (200 nm, 50 nm) that holds them harder.
+// Spheres of 30 nm that the tip lifts off the sample, and a pad around (200 nm, 50 nm) with a stronger hold.
 inline scene::SharedParticles particles_to_lift(const std::vector<PlaceM>& places) {
   scene::SharedSpecies species = gold_species();
   species.radius_m = 15e-9;
@@ -79,7 +79,7 @@ inline scene::SharedParticles particles_to_lift(const std::vector<PlaceM>& place
   return particles;
 }
 
-// Flat islands of 200 nm, 50 nm high, that give at 30 nN.
+// Flat islands of 200 nm, 50 nm high, that yield at 30 nN.
 inline scene::SharedParticles islands_at(const std::vector<PlaceM>& places) {
   scene::SharedParticles particles = particles_at(places, constant_species(30e-9, 0.5));
   particles.island_radius_m[0] = 100e-9;
@@ -89,7 +89,7 @@ inline scene::SharedParticles islands_at(const std::vector<PlaceM>& places) {
   return particles;
 }
 
-// Distance of tip and first particle at touch, the apex on the sample.
+// Distance of tip and first particle at touch, with the apex on the sample.
 inline double touch_m(const scene::SharedParticles& particles) {
   const physics::PushSetup setup = scene::push_setup(particles);
   return physics::core_radius(setup.species.front()).si +
@@ -100,7 +100,7 @@ inline void expect_relative(double actual, double expected, double tolerance) {
   EXPECT_NEAR(actual, expected, tolerance * std::abs(expected));
 }
 
-// The paper's materials, with three of these spheres in a row along x.
+// Model with the paper's materials, and three of these spheres in a row along x.
 inline scene::SharedModel model_with_particles() {
   scene::SharedModel model = paper_model();
   model.particles = particles_at({{-80e-9, 0.0}, {0.0, 0.0}, {80e-9, 0.0}});

@@ -22,7 +22,7 @@ inline scene::SharedParticles thiol_ink() {
   return particles;
 }
 
-// The paper's materials, on whose scale Particles a tip writes with ink.
+// Model with the paper's materials; on the scale Particles a tip writes with ink.
 inline scene::SharedModel ink_model() {
   scene::SharedModel model = paper_model();
   model.particles = thiol_ink();

@@ -16,7 +16,7 @@ inline scene::ParticleSet particle_set(const std::string& name) {
   return scene::load_particle_set(scene::particle_file(name, support::source("assets")).value()).value();
 }
 
-// Pages of a set in which no particle has moved.
+// Pages of a set in which no particle has moved yet.
 inline std::vector<scene::ParticlePage> start_pages(const scene::ParticleSet& set) {
   const auto shared = std::make_unique<const scene::SharedParticles>(scene::shared_particles(set));
   std::vector<scene::ParticlePage> pages(scene::pages_of(shared->count));
@@ -45,7 +45,7 @@ inline std::vector<scene::ParticlePage> formed_pages(const scene::ParticleSet& s
   return pages;
 }
 
-// A push of that particle, along x from its left.
+// A push of that particle along x, from its left.
 inline scene::TipPush push_of(const scene::ParticleSet& set, std::size_t particle, physics::PushState state) {
   const scene::ParticlePose pose =
       start_pages(set)[particle / scene::kPosesPerPage].poses[particle % scene::kPosesPerPage];

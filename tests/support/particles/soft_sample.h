@@ -23,7 +23,7 @@ inline scene::SharedParticles soft_pmma() {
   return particles;
 }
 
-// The paper's materials, on whose scale Particles the sample is PMMA.
+// Model with the paper's materials; on the scale Particles the sample is PMMA.
 inline scene::SharedModel soft_model() {
   scene::SharedModel model = paper_model();
   model.particles = soft_pmma();

@@ -12,10 +12,10 @@
 
 namespace afm::support {
 
-// Runs the program with these arguments, as a person types them, and waits.
+// Runs the program with these arguments, as typed by a person, and waits.
 inline ProgramResult run_touchafm(const std::string& arguments) { return run_program(touchafm() + " " + arguments); }
 
-// Whatever is refused is refused in one line, with nothing on standard output.
+// Expects a refusal in one line, with nothing on standard output.
 inline void expect_refusal(const ProgramResult& result, int exit_code, const std::string& part) {
   EXPECT_EQ(result.exit_code, exit_code) << result.err;
   EXPECT_THAT(result.err, testing::HasSubstr(part));

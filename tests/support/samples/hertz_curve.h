@@ -7,11 +7,11 @@
 
 namespace afm::test {
 
-// What nanite's users measure most: a soft gel under a sphere, without adhesion.
+// Most frequent measurement of nanite's users: a soft gel under a sphere, without adhesion.
 inline constexpr double kHertzModulusPa = 3000.0, kHertzPoisson = 0.5, kHertzRadiusM = 5e-6;
 inline constexpr double kHertzSpringConstant = 0.05;
 
-// F = 4/3 E/(1 - nu^2) sqrt(R) delta^1.5 (Hertz 1882).
+// Force of Hertz's law: F = 4/3 E/(1 - nu^2) sqrt(R) delta^1.5 (Hertz 1882).
 inline double hertz_force_n(double modulus_pa, double indentation_m) {
   if (indentation_m <= 0.0) return 0.0;
   return 4.0 / 3.0 * modulus_pa / (1.0 - kHertzPoisson * kHertzPoisson) * std::sqrt(kHertzRadiusM) *
@@ -29,7 +29,7 @@ inline double hertz_indentation_m(double z_m) {
   return indentation;
 }
 
-// From 2 um above the gel to 1.5 um below and back, evenly spaced as an instrument's.
+// Curve from 2 um above the gel to 1.5 um below and back, evenly spaced like an instrument's.
 inline curves::RecordedCurve hertz_curve(std::size_t points_a_branch = 2000) {
   curves::RecordedCurve curve;
   for (const auto branch : {physics::Branch::Approach, physics::Branch::Retract}) {
@@ -45,7 +45,7 @@ inline curves::RecordedCurve hertz_curve(std::size_t points_a_branch = 2000) {
   return curve;
 }
 
-// What a third party does with the file: the tip's position is height + F/k; modulus and contact point by least squares
+// Fit by a third party to the file: the tip's position is height + F/k; modulus and contact point by least squares
 // over all of the approach. Linear in the modulus, the contact point by golden-section search.
 inline double fitted_modulus_pa(const curves::RecordedCurve& curve) {
   const double k = curve.metadata.spring_constant->si;

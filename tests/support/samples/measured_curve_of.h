@@ -7,7 +7,7 @@
 
 namespace afm::test {
 
-// Gives a material the measured curve of a spring of 0.1 N/m, in at 2 nm, off at 14 nm.
+// Gives a material the measured curve of a spring of 0.1 N/m, with jumps in at 2 nm and off at 14 nm.
 inline void add_measured_curve(scene::SharedModel& model, std::size_t material) {
   model.materials[material].measured_curve = 0;
   model.curve_count = 1;

@@ -10,7 +10,7 @@
 
 namespace afm::test {
 
-// An image as a microscope gives it: hills and sharp steps under noise from point to point, 0 at the origin; metres as
+// An image as recorded by a microscope: hills and sharp steps with noise at each point, 0 at the origin; metres as
 // measured.
 inline scene::Topography measured_surface(std::uint32_t side = scene::kMaxTopographySide, double width_m = 10e-6,
                                           double height_m = 1e-6, std::uint32_t seed = 19) {
@@ -30,10 +30,10 @@ inline scene::Topography measured_surface(std::uint32_t side = scene::kMaxTopogr
   return topography;
 }
 
-// Shown some 60 nm wide and in true proportions.
+// Scale at which it is some 60 nm wide and in true proportions.
 inline constexpr scene::TopographyScale kMeasuredScale{.lateral = 6e-3, .vertical = 6e-3};
 
-// The paper's three materials on it.
+// Model with the paper's three materials on that surface.
 inline scene::SharedModel measured_model(const scene::Topography& topography) {
   scene::SharedModel model = paper_model();
   model.topography = topography.size();

@@ -8,10 +8,10 @@
 
 #include "physics/curve_point.h"
 
-// Cycles as instruments record them, with a loop in contact and noise, which no law of ours has.
+// Cycles as recorded by instruments, with a loop in contact and noise, which none of our laws has.
 namespace afm::test {
 
-// Points between `far` and `deep`; forces by Z, in newtons.
+// Points between `far` and `deep`; forces as functions of Z, in newtons.
 template <class Down, class Up>
 std::vector<physics::CurvePoint> recording(double far, double deep, Down down, Up up, double noise,
                                            int count_down = 1000, int count_up = 1000, unsigned seed = 11) {
@@ -29,7 +29,7 @@ std::vector<physics::CurvePoint> recording(double far, double deep, Down down, U
   return points;
 }
 
-// A tip on a hard sample as an MFP-3D recorded it: the retract runs 2 nm beside the approach, so that the contact line
+// A tip on a hard sample as recorded by an MFP-3D: the retract runs 2 nm beside the approach, so that the contact line
 // of the retract pulls harder at the place of the snap-in than the snap-in did.
 inline std::vector<physics::CurvePoint> hard_sample() {
   const auto down = [](double z) { return z > 6.6e-9 ? 0.0 : -0.55 * z; };
@@ -37,7 +37,7 @@ inline std::vector<physics::CurvePoint> hard_sample() {
   return recording(190e-9, -18e-9, down, up, 10e-12);
 }
 
-// A soft sample that sticks: no snap-in, a loop in contact, a pull that ends gradually.
+// A soft, sticky sample: no snap-in, a loop in contact, a pull that ends gradually.
 inline std::vector<physics::CurvePoint> soft_sample() {
   const auto push = [](double z) { return z > 0 ? 0.0 : 4e-9 * std::pow(-z / 400e-9, 1.5); };
   const auto down = [&](double z) { return push(z); };
@@ -48,7 +48,7 @@ inline std::vector<physics::CurvePoint> soft_sample() {
   return recording(2e-6, -400e-9, down, up, 15e-12);
 }
 
-// A soft sample that lets go over this range, with noise as a share of the pull.
+// A soft sample with a pull-off over this range, with noise relative to the pull.
 inline std::vector<physics::CurvePoint> gradual_pull_off(double range, double noise, unsigned seed) {
   constexpr double kPull = 0.4e-9;
   const auto push = [](double z) { return z > 0 ? 0.0 : 2e-9 * std::pow(-z / 500e-9, 1.5); };
@@ -59,7 +59,7 @@ inline std::vector<physics::CurvePoint> gradual_pull_off(double range, double no
   return recording(2.5e-6, -500e-9, push, up, noise * kPull, 2000, 2000, seed);
 }
 
-// A soft sample that goes on to pull over many micrometres, recorded more densely on the way down.
+// A soft sample that continues to pull over many micrometres, recorded more densely on the way down.
 inline std::vector<physics::CurvePoint> long_weak_pull() {
   const auto down = [](double z) { return z > 0 ? 0.0 : 6e-9 * std::pow(-z / 3.2e-6, 1.5); };
   const auto up = [&](double z) {
@@ -69,7 +69,7 @@ inline std::vector<physics::CurvePoint> long_weak_pull() {
   return recording(60e-6, -3.2e-6, down, up, 40e-12, 10400, 2000);
 }
 
-// A soft sample that lets go below the contact point, while it is still pressed: the approach pulls a little before it,
+// A soft sample with its pull-off below the contact point, while still pressed: the approach pulls a little before it,
 // over a retract that lies beside it by much of its push.
 inline std::vector<physics::CurvePoint> lets_go_pressed() {
   const auto down = [](double z) { return z > 30e-9 ? 0.0 : 24e-12 * std::pow((30e-9 - z) / 740e-9, 1.3); };
@@ -80,7 +80,7 @@ inline std::vector<physics::CurvePoint> lets_go_pressed() {
   return recording(475e-9, -740e-9, down, up, 0.3e-12);
 }
 
-// Pushed and taken off without any adhesion, through an undulating baseline.
+// A cycle without any adhesion, with an undulating baseline.
 inline std::vector<physics::CurvePoint> no_adhesion() {
   const auto wave = [](double z) { return 2e-9 * std::sin(z / 10e-9); };
   const auto down = [&](double z) { return (z > 0 ? 0.0 : 5.0 * -z) + wave(z); };
@@ -90,7 +90,7 @@ inline std::vector<physics::CurvePoint> no_adhesion() {
   return recording(1e-6, -200e-9, down, up, 0.5e-9);
 }
 
-// A double layer or a brush pushes the tip beyond the place where the sample lets go.
+// A double layer or a brush that pushes the tip beyond the place of the pull-off.
 inline std::vector<physics::CurvePoint> pushes_beyond_pull_off() {
   const auto down = [](double z) {
     return 0.2e-9 * std::exp(-std::max(0.0, z) / 150e-9) + (z > 0 ? 0.0 : 4e-9 * std::pow(-z / 400e-9, 1.5));

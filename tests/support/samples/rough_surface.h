@@ -39,7 +39,7 @@ inline scene::SharedHeightField rough_surface(std::uint32_t seed, double height_
   return field;
 }
 
-// The paper's three materials on a surface that is nowhere flat.
+// Model with the paper's three materials on a surface that is nowhere flat.
 inline scene::SharedModel rough_model() {
   scene::SharedModel model = paper_model();
   model.height_field_count = 1;

@@ -8,7 +8,7 @@
 
 namespace afm::test {
 
-// The sample of docs/tapping.md under a lever of 40 N/m at 300 kHz, Q = 400, A0 = 20 nm.
+// Hand on the sample of docs/tapping.md under a lever of 40 N/m at 300 kHz, Q = 400, A0 = 20 nm.
 inline curves::TappedHand tapped_hand() {
   curves::TappedHand hand;
   hand.choice.mode = "tapping";
