@@ -73,7 +73,7 @@ std::vector<Crowd> crowds(double radius_m) {
   }
   all.push_back(
       {.name = "200, a faster hand", .places_m = scattered(200, radius_m, kPitchM), .hand_m_per_s = 2.0 * kHandMPerS});
-  // so close, under so blunt a tip, that the simulated hand can feel so many
+  // spacing so small that the simulated hand can feel this many particles with a blunt tip
   constexpr double kCloseM = 60e-9;
   all.push_back({.name = "2000 particles",
                  .places_m = scattered(2000, radius_m, kCloseM),
@@ -100,7 +100,7 @@ struct Counts {
   std::uint64_t touching = 0, exhausted = 0;
 };
 
-// One round of lines over all of the crowd, to and fro.
+// One round of lines over the whole crowd, back and forth.
 class Round {
  public:
   Round(TimedServo& servo, const Crowd& crowd, double hand_m_per_m)

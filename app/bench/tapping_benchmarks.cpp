@@ -193,7 +193,7 @@ core::Result<TappingFigure> image_figure(const CommandContext& context, int roun
   request.amplitude_setpoint = "0.8";
   std::vector<double> taken_s;
   for (int i = 0; i < rounds; ++i) {
-    // of all threads
+    // processor time of all threads
     const double before_s = clock_s(CLOCK_PROCESS_CPUTIME_ID);
     if (const auto scan = imaging::take_scan(request); !scan) return tl::unexpected(scan.error());
     taken_s.push_back(clock_s(CLOCK_PROCESS_CPUTIME_ID) - before_s);

@@ -14,7 +14,7 @@ struct ViewParts;
 // together. Must come after all controls that change the picture.
 class ClusterControl final : public ViewControl {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive the object.
   ClusterControl(ViewParts& parts, ClusterMaster& master);
 
   void take(const ViewInput& input, const ViewFrame& frame) override;

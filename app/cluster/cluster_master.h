@@ -36,7 +36,7 @@ class ParameterEdits;
 // barrier's patience, and calls the heartbeat meanwhile.
 class ClusterMaster {
  public:
-  // All must outlive it. `contact_m`: the contact point, in the room.
+  // All arguments must outlive the object. `contact_m`: the contact point, in the room.
   ClusterMaster(std::unique_ptr<cluster::MasterLink> link, const scene::Wall& wall, const glm::dvec3& contact_m,
                 std::size_t materials, const core::Clock& clock);
 

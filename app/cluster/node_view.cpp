@@ -80,7 +80,7 @@ void NodeView::forget() {
 void NodeView::restore(std::span<const std::byte> document) {
   auto history = exhibit::load_history(document, felt_.size());
   if (!history) return core::log_line("the master sent a history that is not valid; asking again");
-  // another number than before, since the marks may be others
+  // a number different from the one before, since the marks may differ
   history->marks += history_->marks + 1;
   *history_ = std::move(*history);
   knows_history_ = true;

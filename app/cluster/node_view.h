@@ -41,7 +41,7 @@ class NodeView {
     std::vector<std::byte> model;
   };
 
-  // All must outlive it; `key_list` is the function that the master's window uses.
+  // All arguments must outlive the object; `key_list` is the function that the master's window uses.
   NodeView(const exhibit::Stage& stage, const std::vector<curves::SampleModel>& materials, ViewDisplay& display,
            cluster::NodeLink& link, Place place, KeyList key_list, const core::Clock& clock);
   ~NodeView();

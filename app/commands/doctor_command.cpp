@@ -54,7 +54,7 @@ std::string histogram(const char* what, std::span<const std::uint32_t> late_us, 
     const auto end = last ? late_us.end() : late_us.begin() + to_us;
     const std::uint64_t ticks = std::accumulate(begin, end, std::uint64_t{0});
     const double share = static_cast<double>(ticks) / static_cast<double>(std::max<std::uint64_t>(1, all));
-    // at least one character for every row with ticks
+    // bar of at least one character for every row with ticks
     const auto bar = static_cast<std::size_t>(ticks == 0 ? 0.0 : std::max(1.0, kBarLength * share));
     const std::string range = last ? fmt::format("{} and more", from_us) : fmt::format("{} to {}", from_us, to_us);
     text += fmt::format("{:>13} \u00b5s {:>9}  {}\n", range, ticks, std::string(bar, '#'));

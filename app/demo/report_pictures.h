@@ -18,7 +18,7 @@ namespace afm::app {
 // thread.
 class ReportPictures {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   ReportPictures(render::Context& context, render::Renderer& renderer, const core::OutputFolder& out);
   ~ReportPictures();
 

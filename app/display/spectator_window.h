@@ -33,7 +33,7 @@ class ViewDisplay;
 // an image line by line. Changes nothing in the instrument, which does not wait for the picture. Main thread only.
 class SpectatorWindow {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   SpectatorWindow(const exhibit::Stage& stage, std::vector<curves::SampleModel> materials, ViewDisplay& display,
                   instrument::Showcase& showcase, const core::Clock& clock);
   ~SpectatorWindow();

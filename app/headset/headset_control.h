@@ -14,7 +14,7 @@ struct ViewParts;
 // Headset in the live window: the runtime's frames, whether the wearer sees them, and the controller as a wand.
 class HeadsetControl final : public ViewControl {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive the object.
   HeadsetControl(ViewParts& parts, ViewHeadset& headset);
 
   void begin_frame() override;

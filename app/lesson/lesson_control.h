@@ -20,7 +20,7 @@ struct ViewParts;
 // A lesson at the live window, as a guide for the other controls.
 class LessonControl final : public ViewControl, public ViewGuide {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive the object.
   LessonControl(ViewParts& parts, exhibit::LiveLesson& lesson);
 
   void skip();

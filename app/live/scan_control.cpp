@@ -164,7 +164,7 @@ void ScanControl::update(const ViewFrame& frame) {
   const double seconds = static_cast<double>(frame.now_ns - std::exchange(scanned_ns_, frame.now_ns)) * 1e-9;
   if (!has_hand()) return scan_->advance(seconds);
   if (!parts_.servo.running()) return;
-  // another scale, at which the hand reaches another square
+  // the scale has changed, and with it the square that the hand reaches
   if (const exhibit::HandSize size = hand_size(); size != size_) return begin();
   const scene::TipState& tip = parts_.servo.link().tip();
   const glm::dvec2 place_m(tip.surface.xy_m[0], tip.surface.xy_m[1]);

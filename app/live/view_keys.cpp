@@ -217,7 +217,7 @@ render::DataPanel key_list(HandSource hand, bool unattended, const exhibit::Phra
     // without notes, which would make the rows overlap
     panel.rows.push_back({phrases[key.text], name + (key.mouse ? ", " + phrases[*key.mouse] : ""), ""});
   };
-  // those of a visitor first
+  // visitors' keys first
   for (const bool staff : {false, true}) {
     for (const LiveKey& key : live_keys()) {
       if (key.staff == staff && !(staff && unattended)) add(key);

@@ -257,7 +257,7 @@ Option OptionList::add_option(const std::string& name, Value& target, const std:
   if constexpr (std::same_as<Value, std::string> || std::same_as<Value, std::vector<std::string>>) {
     option->check([](const std::string& text) { return std::string(text.empty() ? "its value is empty" : ""); });
   }
-  // which CLI11 would take for a number beyond all limits
+  // CLI11 would report a negative number as one beyond all limits
   if constexpr (std::unsigned_integral<Value>) {
     option->check([](const std::string& text) {
       return text.starts_with('-') ? fmt::format("\"{}\" is negative", text) : std::string();

@@ -39,7 +39,7 @@ NodeSpec hair() {
           .parts = {{std::move(placed), {.name = "hair", .base_color = {0.16, 0.085, 0.045}, .roughness = 0.38}}}};
 }
 
-// Its thickness at a part of the radius: E. Evans and Y. C. Fung, Microvasc. Res. 4 (1972) 335, for 7.8 um.
+// Thickness at a fraction of the radius: E. Evans and Y. C. Fung, Microvasc. Res. 4 (1972) 335, for 7.8 um.
 double cell_half_thickness(double part) {
   const double p2 = part * part;
   return 0.5 * kCellRadius * std::sqrt(std::fmax(0.0, 1 - p2)) * (0.207 + 2.003 * p2 - 1.123 * p2 * p2);

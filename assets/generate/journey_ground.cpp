@@ -152,7 +152,7 @@ double sunk(double r, std::int64_t column, std::int64_t row) {
   return 1.7 * kBelowAtoms * smooth_step(-0.4 * kNm, 0.3 * kNm, r - until);
 }
 
-// Those that are seen from near, and all others.
+// Atoms that are seen from near, and all others.
 struct Atoms {
   Surface near, far;
 

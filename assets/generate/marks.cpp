@@ -24,7 +24,7 @@ MaterialSpec blue() { return {.name = "blue line", .base_color = {0.06, 0.42, 0.
 
 }  // namespace
 
-// Lines of light that stand where something is to be read: neither lit nor shadowed, but hidden by what is before them.
+// Bright lines where something is to be read: neither lit nor shadowed, but hidden by objects in front of them.
 Model marks() {
   Model model{"marks", {}};
   const auto add = [&](const char* name, Surface surface, MaterialSpec material) {

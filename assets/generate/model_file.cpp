@@ -37,7 +37,7 @@ double position_grid(const Surface& surface) {
   return grid / (1U << 22U);
 }
 
-// On the grid, and without the triangles that have no area there.
+// Same surface on the grid, without the triangles that have no area there.
 Surface on_grid(const Surface& surface) {
   const double grid = position_grid(surface);
   const auto round = [grid](double c) { return std::floor(c / grid + 0.5) * grid; };

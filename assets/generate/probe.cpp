@@ -127,7 +127,7 @@ Surface tip_sides(const std::vector<double>& shares) {
   const TipShape shape = tip_shape();
   Surface surface;
 
-  // where the line from the ball along an edge or face meets the base, for the normal there
+  // point where the line from the ball along an edge or face meets the base, for the normal there
   const auto at_base = [&](V3 normal, V3 edge) {
     const V3 start = shape.center + normal * kApexRadius;
     return start + edge * (-start.z / edge.z);

@@ -14,7 +14,7 @@ MaterialSpec anodised() {
   return {.name = "anodised", .base_color = {0.055, 0.060, 0.072}, .metallic = 0.5, .roughness = 0.36};
 }
 
-// A thin plate, so that the sample is what one sees. Its top is in the sample's shade.
+// A thin plate, so that attention stays on the sample. Its top is in the sample's shade.
 Surface plate() {
   constexpr double kCorner = 0.9 * kMm, kBevel = 0.09 * kMm, kSeat = 0.2;
   const auto outline = [](double in) {
@@ -78,7 +78,7 @@ Surface body() {
 Model stage() {
   MaterialSpec shaded = anodised();
   shaded.vertex_colors = true;
-  // no light reaches it
+  // material that no light reaches
   const MaterialSpec dissolving{.name = "dissolving",
                                 .base_color = {0.016, 0.018, 0.023},
                                 .roughness = 1,

@@ -128,7 +128,7 @@ Surface ingot() {
   add_cap(bar, inset(foot, bevel * 0.5), 0, Facing::Down);
   add_cap(bar, inset(rim, bevel), height, Facing::Up);
 
-  // what lies below takes the light from the foot; gold seen in gold is redder
+  // low parts get their light from the foot; gold seen in gold is redder
   for (SurfaceVertex& vertex : bar.vertices) {
     const double lit = mix(0.34, 1, smooth_step(0, 0.75 * height, vertex.position.z));
     vertex.color = {lit, lit * mix(0.8, 1, lit), lit * mix(0.6, 1, lit)};

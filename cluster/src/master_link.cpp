@@ -44,7 +44,7 @@ std::uint64_t new_session() {
 struct MasterLink::Parts {
   explicit Parts(const core::Clock& of_program) : clock(of_program) {}
 
-  // Another master, as its frames show it.
+  // Another master, as described by its frames.
   struct OtherMaster {
     std::uint64_t session = 0;  // session of the other master; 0: none
     std::int64_t first_ns = 0, newest_ns = 0;
@@ -77,12 +77,12 @@ struct MasterLink::Parts {
   std::unique_ptr<Transport> transport;  // used by the thread only
   std::vector<DocumentPiece> model;      // used by the thread only
 
-  // from the frame loop to the thread
+  // newest frame, from the frame loop to the thread
   core::LatestValue<FrameMessage> frame;
   core::LatestValue<SwapMessage> swap;
   core::SpscRing<JournalRecord, kRecordsRing> records;
   core::SpscRing<DocumentPiece, kPiecesRing> history;
-  // and back
+  // answers, from the thread to the frame loop
   core::SpscRing<Answer, 1024> answers;
   std::atomic<std::uint64_t> refused{0}, unwritten{0}, resent{0};
   std::atomic<Rival> rival{Rival::None};

@@ -44,13 +44,13 @@ struct NodeLink::Parts {
   Doorbell for_thread, for_frames;
   std::unique_ptr<Transport> transport;  // used by the thread only
 
-  // from the thread to the main thread
+  // newest frame, from the thread to the main thread
   core::LatestValue<Came> frame;
   core::LatestValue<SwapMessage> swap;
   core::SpscRing<Numbered, 16384> records;
   core::SpscRing<DocumentPiece, 2048> model, history;
   std::atomic<std::uint64_t> refused{0};
-  // and back
+  // newest answer, from the main thread to the thread
   core::LatestValue<ReadyMessage> answer;
 
   // main thread only

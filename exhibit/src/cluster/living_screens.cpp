@@ -90,7 +90,7 @@ render::PanelPlacement on_living_screens(const render::PanelPlacement& banner, c
   if (parts.empty()) return at_top_of(*largest, banner);
   const Stretch part = widest(std::move(parts));
   if (part.from <= 0.0 && part.to >= 1.0) return banner;
-  // as wide as it was, if there is the room, and as near to its place
+  // banner as wide as before, if there is room, and as near as possible to its former place
   const double rim = std::min(kRimShare, 0.25 * part.length());
   const double width = std::min(1.0, part.length() - 2.0 * rim);
   const double from = std::max(part.from + rim, std::min(0.0, part.to - rim - width));

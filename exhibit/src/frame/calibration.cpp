@@ -32,7 +32,7 @@ void show_calibration(const scene::Screen& screen, scene::StereoMode mode, doubl
   frame.labels.clear();
   constexpr double kSmallScreenM = 1.0;
   const double square_m = screen.width_m() < kSmallScreenM ? 0.01 : 0.1;
-  // one picture for both eyes has no eye's letter
+  // a single picture for both eyes has no letter of an eye
   const bool eye_marks = mode != scene::StereoMode::Mono;
   frame.panels.calibration.content = {
       .size = phrases.number(fmt::format("{}   {:.3f} m x {:.3f} m", screen.name, screen.width_m(), screen.height_m())),

@@ -120,7 +120,7 @@ core::Result<std::shared_ptr<const curves::SampleModel>> load_force_map(const Ex
   curves::MapReading reading = files.map_reading ? *files.map_reading : curves::MapReading{};
   if (auto prepared = curves::prepare(reading.fit); !prepared) return tl::unexpected(prepared.error());
   const auto fit = reading.fit.shape ? curves::fit_of_each(files.force_map, reading.fit) : curves::CurveMap::Fit{};
-  // what is felt whole is also seen whole
+  // a map that is felt as a whole is also seen as a whole
   const auto gatherer = files.whole_map ? std::make_shared<curves::ForceVolume::Gatherer>() : nullptr;
   curves::CurveMap::Fit each = fit;
   if (gatherer) {

@@ -113,7 +113,7 @@ core::Result<ExhibitFiles> with_recorded_map(const servo::RecordedSession& sessi
     if (files.force_map.empty()) return files;
     return core::wrong_usage("--force-map: the hand of this session felt no map, or it does not name it; leave it out");
   }
-  // without a picture of its map the curve of a pixel is drawn all the same
+  // the curve of a pixel is drawn even without a picture of its map
   const bool needed = session.law_map || !files.force_map.empty();
   auto found = found_map(session, path, files);
   if (found || needed) return found;

@@ -28,7 +28,7 @@ std::string pull(physics::Force value) {
 
 std::vector<std::string> notes(const curves::LiveParameters& parameters, const Phrases& phrases) {
   using enum Phrase;
-  // of a pixel, the plot has the jumps; the picture needs the room
+  // for a single pixel the plot shows the jumps, and the picture needs the room
   if (parameters.model().felt_map) return {};
   if (const auto& pixel = parameters.model().pixel) {
     return pixel->measured.features.contact_doubtful ? std::vector{phrases[ContactDoubtful]}

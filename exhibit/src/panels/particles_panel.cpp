@@ -174,7 +174,7 @@ class ParticleRows {
         phrases_.text<Phrase::LookOff>(fmt::format("{}", look.particle + 1), fmt::format("{}", look.lines)));
   }
 
-  // Only a load that is not gentle: a warning.
+  // Adds a warning, only if the load is not gentle.
   void add_look_load() {
     const Force load(now_.look_load_n);
     if (now_.picture == nullptr || !(load > gentle_look(*now_.set))) return;
@@ -325,7 +325,7 @@ class ParticleRows {
 
 // Distance from a pattern, or else the medium of the particles; with the pushes that can be taken back.
 std::string subtitle(const ParticlesNow& now, const Phrases& phrases) {
-  // at level 2 none can be taken back
+  // no push can be taken back at level 2
   const std::uint32_t strokes = now.picture != nullptr && now.picture->level > 1 ? 0 : now.push.strokes;
   const std::string pushes = fmt::format("{}", strokes);
   const std::string& medium = phrases.word(now.set->medium);

@@ -49,7 +49,7 @@ ScratchFigures figures_of(const scene::ParticleSet& set) {
   f.dragged_left = f.dragged - back;
   f.width = 2.0 * groove;
   const physics::Area section = physics::groove_section(tip, f.dragged);
-  // what springs back is a parabola of the same width
+  // the part that springs back is a parabola of the same width
   const physics::Area stays(std::max(0.0, (section - 2.0 / 3.0 * (back * f.width)).si));
   f.ridge = physics::ridge_height(stays, surface.pile_up_share, f.width);
   f.lateral = surface.hardness * section;

@@ -80,7 +80,7 @@ double usable_modulus_pa(const curves::PixelFit& fit) {
 }
 double pull_n(const curves::PixelFit& fit) { return fit.adhesion_n; }
 
-// One quantity of the picture.
+// One quantity that the picture can show.
 struct QuantityRow {
   MapQuantity quantity;
   std::string_view name;

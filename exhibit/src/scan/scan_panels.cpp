@@ -260,7 +260,7 @@ void show_scan(const LiveScan& scan, Moment& moment) {
   wall.swing = {};
   wall.surface = {.xy_m = {apex_m.x, apex_m.y}, .height_m = apex_m.z};
   if (const physics::TappingDetector* tapping = scan.scanner().loop().tapping()) {
-    // its mean force bends a lever that taps too little to be seen
+    // the mean force bends a tapping lever too little to be seen
     const double amplitude_m = tapping->amplitude_m();
     wall.swing = {.amplitude_m = amplitude_m, .phase_rad = tapping->phase_rad()};
     wall.tip = {.z_m = amplitude_m, .force_n = 0.0, .height_m = amplitude_m, .deflection_m = 0.0};

@@ -25,7 +25,7 @@ namespace {
 constexpr glm::vec3 kLight{0.72F, 0.80F, 0.88F};
 constexpr float kGhostAlpha = 0.38F, kBandAlpha = 0.22F;
 
-// A material of light: it hides nothing.
+// Adds a light material, which hides nothing.
 std::uint32_t add_light(scene::Scene& scene, const char* name, float alpha) {
   scene::PbrMaterial light;
   light.name = name;

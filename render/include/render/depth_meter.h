@@ -17,7 +17,7 @@ struct DepthRange {
 // Finds the extremes of the eyes' depth on the device, without waiting for it. Renderer's thread.
 class DepthMeter {
  public:
-  // Both must outlive it.
+  // Both arguments must outlive the object.
   DepthMeter(Context& context, Renderer& renderer);
   DepthMeter(DepthMeter&&) noexcept;
   DepthMeter& operator=(DepthMeter&&) noexcept;

@@ -24,7 +24,7 @@ class ScreenshotQueue {
   // Largest number of pictures in progress.
   static constexpr std::size_t kMostPictures = 4;
 
-  // Both must outlive it.
+  // Both arguments must outlive the object.
   ScreenshotQueue(Context& context, Renderer& renderer);
   ScreenshotQueue(ScreenshotQueue&&) noexcept;
   ScreenshotQueue& operator=(ScreenshotQueue&&) noexcept;

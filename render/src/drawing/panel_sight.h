@@ -10,7 +10,7 @@ namespace afm::render {
 // Visibility of a frame's panels to both eyes.
 class PanelSight {
  public:
-  // All must outlive it.
+  // All arguments must outlive the object.
   PanelSight(const FrameState& frame, const SceneGeometry& geometry, const DrawList& draws)
       : frame_(frame), geometry_(geometry), draws_(draws) {}
 

@@ -124,7 +124,7 @@ std::optional<std::int64_t> Headset::pose_age_ns() const { return parts_->pose_a
 
 const HeadsetController& Headset::controller() const {
   static const HeadsetController kNone;
-  // no button stays pressed without a frame that could have reported its release
+  // a button must not stay pressed when no frame could have reported its release
   const bool known = parts_->turn == Turn::Hidden || parts_->turn == Turn::Frame;
   return parts_->session && known ? parts_->session->controller() : kNone;
 }

@@ -35,7 +35,7 @@ SaverInhibition::Way suspend_saver(xcb_connection_t* x) {
   const bool refused = error != nullptr;
   std::free(error);
   if (refused) return {.said = "the X server refused"};
-  // one that is active already stays active
+  // a screen saver that is active already stays active
   xcb_force_screen_saver(x, XCB_SCREEN_SAVER_RESET);
   xcb_flush(x);
   return {.works = true, .said = "suspended, with DPMS"};

@@ -47,7 +47,7 @@ void XPicture::put(vk::Extent2D extent, std::span<const std::byte> pixels) const
                   static_cast<std::uint16_t>(rows), std::int16_t{0}, static_cast<std::int16_t>(row), std::uint8_t{0},
                   kDepth, static_cast<std::uint32_t>(part.size()), reinterpret_cast<const std::uint8_t*>(part.data()));
   }
-  // an answer comes after the pictures before it; so does an error, of which nothing needs to be known
+  // the answer comes after all earlier pictures; so does an error, which needs no handling
   std::free(xcb_get_input_focus_reply(connection, xcb_get_input_focus(connection), nullptr));
   while (xcb_generic_event_t* const event = xcb_poll_for_event(connection)) std::free(event);
 }

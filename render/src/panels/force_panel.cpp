@@ -83,7 +83,7 @@ void paint_number(Canvas& canvas, std::string_view text, float right, float top,
   const float scale = std::min(1.0F, room / number_width(canvas, number, unit));
   const float large = text_height_mm(TextStyle::Figure), small = text_height_mm(TextStyle::Title);
   top += 0.5F * (1.0F - scale) * large;
-  // on the digits' line
+  // on the baseline of the digits
   canvas.text({right, top + scale * kBaseline * (large - small)}, TextStyle::Title, palette::kMuted, unit, Align::Right,
               scale);
   float x = right - scale * number_width(canvas, number, unit);
@@ -223,7 +223,7 @@ LabelBox force_caption(const Canvas& canvas, const Plot& plot, const ForcePanel&
 void paint_captions(Canvas& canvas, const Plot& plot, const LabelBox& force, const PlotWords& words) {
   canvas.rectangle(force.from, force.to, Color{palette::kPlate.srgb, 0.85F}, 6.0F);
   canvas.text(force.from + glm::vec2(8.0F, 1.0F), TextStyle::Body, palette::kInk, words.force_axis);
-  // in the middle: the sample hides the panel's right corner
+  // in the middle, since the sample hides the panel's right corner
   canvas.text({0.5F * (plot.top_left.x + plot.bottom_right.x), plot.bottom_right.y + 54.0F}, TextStyle::Body,
               palette::kInk, words.place_axis, Align::Center);
 }

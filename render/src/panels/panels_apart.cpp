@@ -20,7 +20,7 @@ void Panels::list(std::vector<PanelState>& states) const {
 }
 
 void Panels::set_apart(std::size_t most, const PanelSight& sight) {
-  // where there are fewer places than panels, the first ones get them
+  // if there are fewer places than panels, the first panels get them
   order_.clear();
   const auto add_all = [&](PanelLayer layer) {
     for (Panel& panel : slots_) {
@@ -36,7 +36,7 @@ void Panels::set_apart(std::size_t most, const PanelSight& sight) {
   const std::size_t places = std::min(most, order_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i]->has_place = i < places;
 
-  // from the last that is drawn to the first: what is shown apart covers whatever is drawn
+  // from the last drawn to the first, since a panel shown apart covers everything drawn
   std::rotate(order_.begin(), order_.begin() + over_all, order_.end());
   drawn_.clear();
   for (auto each = order_.rbegin(); each != order_.rend(); ++each) {

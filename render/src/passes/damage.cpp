@@ -261,7 +261,7 @@ PixelArea Damage::between(DrawnFrame& before, DrawnFrame& now, const SceneGeomet
   return area;
 }
 
-// ---- what follows the eyes ----
+// ---- draws that follow the eyes ----
 
 void EyeChanges::add(const PixelArea& area) { newest_[count_++ % kKept] = area; }
 

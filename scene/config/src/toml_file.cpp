@@ -120,7 +120,7 @@ core::Result<toml::table> parse_toml(const char* kind, const std::string& path) 
     }
     return root;
   } catch (const toml::parse_error& error) {
-    // it quotes what it saw, which may be the end of the line
+    // the message quotes the text it found, which may be the end of the line
     const std::string what = core::printable_line(error.description());
     const bool other_text = what.find("utf-8") != std::string::npos;
     return tl::unexpected(bad(

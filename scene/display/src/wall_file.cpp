@@ -116,7 +116,7 @@ glm::dmat3 read_keystone(const TomlTable& table, std::string_view key) {
 WallNode read_node(const TomlTable& table, const std::vector<WallNode>& earlier) {
   table.allow_only({"name", "host"});
   WallNode node{.name = table.text("name"), .host = table.text("host")};
-  // they are typed into shells, and name units of systemd
+  // names are typed into shells, and become part of names of systemd's units
   const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.'; };
   for (const auto& [key, text] : {std::pair("name", &node.name), std::pair("host", &node.host)}) {
     if (!std::all_of(text->begin(), text->end(), is_plain) || text->front() == '-') {

@@ -23,7 +23,7 @@ class FrictionHistory {
   std::span<const physics::SidewaysPoint> earlier() const { return earlier_; }
   bool attached() const { return attached_; }
 
-  // All of its state, for storage by exhibit/cluster/wall_history.h.
+  // All of the object's state, for storage by exhibit/cluster/wall_history.h.
   template <class History, class Visit>
   static void visit_state(History& history, Visit&& visit) {
     visit(history.contact_);

@@ -26,7 +26,7 @@ class CycleCurve {
 
   render::PlotCurve plot(std::string label, const glm::vec3& color) const;
 
-  // All of its state, for storage by exhibit/cluster/wall_history.h.
+  // All of the object's state, for storage by exhibit/cluster/wall_history.h.
   template <class Curve, class Visit>
   static void visit_state(Curve& curve, Visit&& visit) {
     visit(curve.points_);

@@ -26,7 +26,7 @@ class CycleHistory {
   bool pressed() const { return pressed_; }      // true: below Z = 0 at some time since the tip touched
   int cycles() const { return cycles_; }         // number of cycles since the material was put under the tip
 
-  // All of its state, for storage by exhibit/cluster/wall_history.h.
+  // All of the object's state, for storage by exhibit/cluster/wall_history.h.
   template <class History, class Visit>
   static void visit_state(History& history, Visit&& visit) {
     for (auto& curve : history.curves_) CycleCurve::visit_state(curve, visit);
