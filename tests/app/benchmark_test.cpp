@@ -94,7 +94,7 @@ TEST(FitBenchmarks, HaveNamesOfTheirOwnBarsAndRatios) {
   EXPECT_EQ(fit_ratios(figures), "");
 }
 
-// Each of them fits what it measures.
+// Each benchmark fits the curves that it measures.
 TEST(FitBenchmarks, FitTheirCurves) {
   const auto figures = run_benchmarks({fit_benchmarks().at(1)});
   ASSERT_TRUE(figures) << figures.error().message;

@@ -39,7 +39,7 @@ TEST(CommandLine, EveryCommandExplainsItself) {
     EXPECT_THAT(all.out, HasSubstr("\n  " + std::string(command.name) + " "));
     commands.emplace_back(command.name);
   }
-  // a text or a number of which the help does not say what it may be
+  // a text or a number whose possible values the help does not describe
   const std::regex unexplained(R"(\n  \S+ +(TEXT|U?INT|FLOAT)\b)");
   for (const std::string& command : commands) {
     const ProgramResult one = run_touchafm(command + " --help");

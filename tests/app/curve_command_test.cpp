@@ -103,7 +103,7 @@ TEST(CurveJson, NamesSourcesAndEstimatesOfTheNumbersThatAct) {
   EXPECT_FALSE(json_of(contact_of("mica", "jkr"))["sources"].contains("hamaker"));
 }
 
-// The samples would be more than a file may hold; the events need none of them.
+// The curve would have more samples than a file may hold, but the events need none of them.
 TEST(CurveJson, NeedsNoSamples) {
   const auto json = json_of(contact_of("mica", "paper"), {.from = "1mm", .step = "1pm", .events_only = true});
   EXPECT_NEAR(json["pull_off"]["force_N"], -1.39989368644e-9, 1e-18);
@@ -276,7 +276,7 @@ TEST(CurveCommand, RefusesWhatCannotBe) {
 
 TEST(CurveCommand, ShowsTheDirectionRuleForComparison) {
   const auto json = json_of(contact_of("mica", "paper-rule"), {.step = "0.5nm"});
-  // its jump lies at a sample, below the threshold
+  // the jump lies at a sample, below the threshold
   EXPECT_LT(json["snap_in"]["z_m"], 2.39e-9);
 }
 

@@ -27,7 +27,7 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Refused in one line, with nothing left in the folder but what the test put there.
+// Expects a refusal in one line, with no file left in the folder except the test's own.
 void expect_refusal(const std::string& arguments, int exit_code, const std::string& part) {
   const support::ScratchFolder folder;
   const ProgramResult result = run_touchafm(arguments + " --out " + folder.file("curve.csv"));

@@ -168,7 +168,7 @@ TEST_F(Demo, ASessionIsDrawnAgain) {
   fs::remove(picture);
 }
 
-// Another law, and its parameters changed while the servo runs; a locale chooses the report's language.
+// Another law, with parameters changed while the servo runs; the locale chooses the report's language.
 TEST(DemoOfAnotherLaw, FeelsTheSameSampleWithOtherNumbers) {
   const support::ScratchFolder folder;
   const auto result =

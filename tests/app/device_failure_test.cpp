@@ -28,7 +28,7 @@ std::vector<std::string> failing(const std::string& fault, std::vector<std::stri
   return test::on_faulty_device(fault, command);
 }
 
-// Without a sanitizer's warnings about its symbolizer, which may be too slow.
+// Last line, without a sanitizer's warnings about its symbolizer, which may be too slow.
 std::string last_line(std::string text) {
   for (;;) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -58,7 +58,7 @@ class DeviceFailureTest : public ::testing::Test {
     return failing(fault, all);
   }
 
-  // The only session in the folder, which reads back, holds what was felt.
+  // Expects one session in the folder that can be read and contains what was felt.
   static void expect_a_session(const std::string& folder) {
     std::vector<std::filesystem::path> kept;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) kept.push_back(entry.path());

@@ -16,7 +16,7 @@ namespace dynamic_resolution_test {
 
 constexpr double kBudget_ms = 40.0;
 
-// What a frame takes: a part that does not depend on the pixels, and one that does.
+// Duration of a frame: a part independent of the pixels, and one in proportion to them.
 struct Cost {
   double fixed_ms = 2.0;
   double pixels_ms = 100.0;  // at full resolution with one sample
@@ -76,7 +76,7 @@ TEST(FrameBudgetTest, PassesEveryResolutionThatCannotFit) {
   const Cost slow{.pixels_ms = 240.0, .four_samples = 1.0};
   EXPECT_EQ(run(budget, slow, 5), 1);
   EXPECT_EQ(budget.quality(), (render::FrameQuality{.scale = 0.5, .samples = 4}));
-  // never past one that fits
+  // never beyond a resolution that fits
   DynamicResolution near(kBudget_ms, 4);
   EXPECT_EQ(run(near, {.fixed_ms = 0.0, .pixels_ms = 70.0, .four_samples = 1.0}, 5), 1);
   EXPECT_EQ(near.quality().scale, 0.71);

@@ -23,7 +23,7 @@ namespace injected_failures_live_test {
 
 constexpr int kFailures = 100;
 
-// The count of all is the last line of the first run's report, in which nothing fails.
+// Number of calls, from the last line of the report of a first run without failures.
 long counted(const std::string& report) {
   const std::string text = core::read_file(report).value_or("");
   const auto last = text.rfind("count ");

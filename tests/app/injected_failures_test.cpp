@@ -84,7 +84,7 @@ TEST_P(InjectedFailures, OfEverySystemCallAreBorne) { EXPECT_GE(expect_every_one
 INSTANTIATE_TEST_SUITE_P(Of, InjectedFailures, testing::ValuesIn(kCommands),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// How many there were in a run in which none failed.
+// Number of calls in a run without failures.
 long counted(const std::string& report) {
   long count = 0;
   std::string word;
@@ -102,7 +102,7 @@ bool expect_whole_or_nothing(const support::ProgramResult& done, const support::
   return whole;
 }
 
-// What is written is whole or not there, whichever call fails between.
+// Files are written whole or not at all, whichever call fails in between.
 TEST(InjectedFailure, LeavesNoPartOfAFile) {
   const support::ScratchFolder reports;
   const std::string line = "curve --material mica --step 1nm --out ";

@@ -115,7 +115,7 @@ const std::vector<Input> kInputs{
 // Files that are written.
 const std::set<std::string> kOutputs{"--out", "--frame-log", "--picture", "--map", "--sound", "--bundle", "--video"};
 
-// A value that names a file, by itself or behind a word.
+// True if a value names a file, by itself or after a word.
 bool names_file(const OptionDescription& option) {
   if (kOutputs.contains(option.name)) return false;
   for (const char* value : {"FILE", "SESSION"}) {

@@ -45,7 +45,7 @@ class InstalledProgram : public ::testing::Test {
 
   static std::string prefix() { return folder_->file("moved"); }
 
-  // In another folder, as a login with an empty environment would start it.
+  // Runs the program in another folder, with an empty environment.
   static ProgramResult touchafm(const std::string& arguments) {
     return run_program("cd " + folder_->file("elsewhere") + " && env -i PATH=/usr/bin:/bin HOME=" + folder_->path() +
                        " " + prefix() + "/bin/touchafm " + arguments);
@@ -157,7 +157,7 @@ std::set<std::string> options_of(const std::string& help) {
 
 TEST_F(InstalledProgram, HasAManPageOfEveryCommandAndOption) {
   const std::string page = prefix() + "/share/man/man1/touchafm.1.gz";
-  // what roff finds fault with
+  // complaints of groff
   const ProgramResult check = run_program("zcat " + page + " | groff -man -ww -z -Kutf8");
   EXPECT_EQ(check.err, "");
   const ProgramResult text = run_program("zcat " + page + " | groff -man -Kutf8 -Tutf8 -P-cbou -rLL=500n");
@@ -178,7 +178,7 @@ TEST_F(InstalledProgram, HasAManPageOfEveryCommandAndOption) {
 
 class Completion : public InstalledProgram {
  protected:
-  // What bash offers for the last word.
+  // Completions that bash offers for the last word.
   static std::vector<std::string> offered(const std::vector<std::string>& words) {
     std::string line = "source " + prefix() + "/share/bash-completion/completions/touchafm; COMP_WORDS=(";
     for (const std::string& word : words) line += "\"" + word + "\" ";

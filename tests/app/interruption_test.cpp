@@ -31,7 +31,7 @@ using std::chrono::milliseconds;
 using testing::EndsWith;
 namespace fs = std::filesystem;
 
-// Of the program and its children, from the signal to their end: far less than what they were about to do.
+// Limit for the program and its children, from the signal to their end: far less than the work that was left.
 constexpr auto kMostProcessorTime = milliseconds(2000);
 
 // Waits until the program has blocked SIGTERM to handle it itself; under a sanitizer that takes 0.2 s. Before it is
@@ -57,7 +57,7 @@ milliseconds processor_time_of_children_that_ended() {
                       (used.ru_utime.tv_usec + used.ru_stime.tv_usec) / 1000);
 }
 
-// Of a program, its children, and those of them that have ended.
+// Processor time of a program, its children, and those of them that have ended.
 milliseconds processor_time(pid_t program) {
   const auto stat = core::read_file(fmt::format("/proc/{}/stat", program));
   if (!stat) return {};
@@ -180,7 +180,7 @@ TEST(Interruption, OfAScanLeavesNoFile) {
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
-// While it loads, starts its servo, lets a cycle be felt, and draws the pictures of the report.
+// Interrupted while it loads, starts its servo, renders a cycle, and draws the pictures of the report.
 TEST_P(InterruptedDemonstration, LeavesNoFile) {
   const support::ScratchFolder folder;
   support::LiveProgram demo({support::touchafm(), "demo", "--out", folder.file("out"), "--material", "mica"}, "");

@@ -33,7 +33,7 @@ class Limits : public ::testing::Test {
   support::ScratchFolder folder_;
 };
 
-// Without pictures: lavapipe 25 has its memory in a file, and dies by SIGBUS when that is limited.
+// Without pictures: lavapipe 25 keeps its memory in a file, and dies by SIGBUS if that is limited.
 TEST_F(Limits, OfTheSizeOfFilesLeaveNothingPartial) {
   for (const std::string format : {"csv", "tab"}) {
     const std::string command = "curve --material mica --step 0.01nm --format " + format + " --out ";

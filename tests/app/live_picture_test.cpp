@@ -74,7 +74,7 @@ class LivePictureTest : public ::testing::Test {
     ADD_FAILURE() << to_expected << " of the pixels are not as expected, " << to_other << " not as the other";
     return false;
   }
-  // What one eye sees of the test pattern, drawn without a window.
+  // View of one eye on the test pattern, drawn without a window.
   Image pattern_of(const std::string& eye) const {
     const std::string file = folder_.file(eye + ".png");
     const auto drawn = support::run_program(support::touchafm() + " wall " +
@@ -117,7 +117,7 @@ TEST_F(LivePictureTest, InRowsGoesByTheRowsOfTheScreen) {
   EXPECT_TRUE(shows(odd, even, 0, 1));
 }
 
-// The same for a picture of a whole wall: the lower output begins on an odd row of the desktop.
+// Same for a picture of a whole wall: the lower output begins on an odd row of the desktop.
 TEST_F(LivePictureTest, OfAWallInRowsGoesByTheRowsOfTheDesktop) {
   const std::string output = R"([[output]]
 name = "NAME"
@@ -155,7 +155,7 @@ sweet_spot = [0.0, 1.65, 2.5]
   }
 }
 
-// The eyes of the live picture are where `render` puts them for the same distance, and not for half of it.
+// The eyes of the live picture are at the places that `render` uses for the same distance, but not for half of it.
 TEST_F(LivePictureTest, ShowsWhatEyesSoFarApartSee) {
   support::LiveProgram program(view("side-by-side", "640x240",
                                     {"--eye-width", "320", "--ipd", "80mm", "--comfort", "3", "--record", "kept",

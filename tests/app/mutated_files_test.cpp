@@ -36,7 +36,7 @@ struct Reading {
   bool live = false;    // the command goes on until SIGINT, which it gets after 3 s
 };
 
-// Of 0.1.0, saved as this version does: one that is cut holds what came before.
+// Session of version 0.1.0, saved again by this version; a part of it must still contain its beginning.
 constexpr const char* kSession = "/tests/formats/0.1.0/session-gold.afms";
 
 #define AFM_CORPUS "/tests/fuzz/corpus/"

@@ -31,7 +31,7 @@ class OptionsTest : public testing::Test {
     return command_.parse(static_cast<int>(all.size()), all.data());
   }
 
-  // What is refused, or nothing.
+  // Text of a refusal; empty if there is none.
   std::string refusal(const std::string& text) {
     const auto answer = parse({"--option", text.c_str()});
     return answer ? "" : answer.error().message;

@@ -47,7 +47,7 @@ TEST(ParticlesCommand, PushesTheGoldOfTheBuiltInSet) {
   EXPECT_NEAR(lateral, figures["threshold_moving_N"].get<double>(), 1e-6 * lateral);
   EXPECT_LT(pushed["lateral_N"][0].get<double>(), 0.0);
   EXPECT_GE(json["least_certificate_J"].get<double>(), -1e-12 * json["moves"].back()["given_J"].get<double>());
-  // what the hand has spent is lost, since nothing is stored any more; among several spheres to the order of a sub-step
+  // the hand's work is lost, since nothing is stored any more; among several spheres to the order of a sub-step
   const auto& last = json["moves"].back();
   EXPECT_NEAR(last["work_J"].get<double>(), last["lost_J"].get<double>(), 0.02 * last["lost_J"].get<double>());
   EXPECT_EQ(last["state"], "free");
@@ -99,7 +99,7 @@ TEST(ParticlesCommand, PicksASphereUpAndSetsItDownOnAPad) {
   EXPECT_EQ(moves[5]["state"], "free");
   EXPECT_EQ(moves[5]["torn"], 1);
   EXPECT_EQ(moves[5]["lifted"], 1);
-  // on the pad, while those below its way lie where they lay
+  // the sphere is on the pad, while those below its path have not moved
   EXPECT_NEAR(json["particles"][0]["end_m"][0].get<double>(), 200e-9, 4e-9);
   EXPECT_NEAR(json["particles"][0]["end_m"][1].get<double>(), -20e-9, 4e-9);
   for (const std::size_t other : {1U, 2U, 3U}) {
@@ -314,7 +314,7 @@ TEST(ParticlesCommand, FailsOnAnOldPictureUnlessTheHandLooksAgain) {
   EXPECT_EQ(looks["picture"]["particles"][0]["stale"], false);
   EXPECT_EQ(looks["picture"]["particles"][1]["stale"], true);
 
-  // without a look the picture shows success, and the sphere lies elsewhere
+  // without a look the picture shows success, although the sphere is elsewhere
   EXPECT_EQ(blind["task"]["done"], false);
   EXPECT_EQ(blind["pattern"]["judged"], false);
   EXPECT_EQ(blind["pattern"]["done"], false);

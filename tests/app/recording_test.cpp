@@ -19,7 +19,7 @@
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
-// What `touchafm view --record` leaves, however the window ends.
+// Result of `touchafm view --record`, however the window ends.
 namespace afm::app {
 namespace recording_test {
 

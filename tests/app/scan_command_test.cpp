@@ -56,7 +56,7 @@ std::vector<double> values_of(const std::string& gwy, int channel) {
   return values;
 }
 
-// What the servo renders for this material, made as the servo does.
+// Surface rendered by the servo for this material, made in the same way.
 haptics::SampleSurface felt_surface(const ScanOptions& options) {
   const auto setup = contact_setup(options.contact);
   const auto material = curves::make_sample_model(*setup);
@@ -92,7 +92,7 @@ TEST(ScanCommand, ShowsAtZeroSpeedWhatAHandFeels) {
   }
 }
 
-// Under a paraboloid what a hand feels there; under any tip one level plane.
+// Under a paraboloid the surface that a hand feels there; under any tip one level plane.
 TEST(ScanCommand, IsLevelBeyondTheRimOfTheSampleAsAHandFeelsIt) {
   for (const char* material : {"mica", "gold", "si3n4"}) {
     const ScanOptions options = options_for(material);

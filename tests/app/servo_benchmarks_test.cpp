@@ -13,7 +13,7 @@
 #include "support/places.h"
 #include "support/stall_watch.h"
 
-// That the benchmarks of the servo measure something; how much is for people to judge.
+// Proves that the servo's benchmarks measure something; how much is left to people.
 namespace afm::app {
 namespace servo_benchmarks_test {
 

@@ -49,7 +49,7 @@ constexpr auto kPause = std::chrono::milliseconds(40);
 constexpr double kMostGrowthMib = 24.0;
 constexpr auto kLongestIdle = std::chrono::minutes(10);
 
-// One xdotool, one tracker and one wand for all actions.
+// Shared xdotool, tracker and wand for all actions.
 class Hands {
  public:
   Hands(const std::string& display, unsigned seed, int actions)
@@ -184,7 +184,7 @@ std::string servo_line(const std::string& said) {
 class SoakTest : public ::testing::Test {
  protected:
   SoakTest() {
-    // what is freed goes back to the system, so that the resident memory is what is held; AddressSanitizer as well
+    // returns freed memory to the system, so that the resident memory is the memory in use; AddressSanitizer as well
     ::setenv("MALLOC_MMAP_THRESHOLD_", "65536", 1);
     ::setenv("MALLOC_TRIM_THRESHOLD_", "65536", 1);
     const char* const asan = std::getenv("ASAN_OPTIONS");
@@ -265,7 +265,7 @@ TEST_F(SoakTest, RandomHandsNeitherDisturbTheServoNorFillTheMemory) {
   std::cout << " MiB\n" << servo_line(program.said()) << "\n";
   EXPECT_LT(least(resident, 3), std::max(least(resident, 1), least(resident, 2)) + kMostGrowthMib);
 
-  // beside it, as long an idle hand: a report, since the machine's own load decides here
+  // for comparison an idle hand for as long: only reported, since the machine's own load decides here
   support::LiveProgram idle(view(), display_.name());
   ASSERT_TRUE(idle.says("Choose a sample")) << idle.said();
   std::this_thread::sleep_for(std::min(took, std::chrono::duration<double>(kLongestIdle)));

@@ -16,7 +16,7 @@
 #include "support/scratch_folder.h"
 #include "support/virtual_display.h"
 
-// Every command of docs/tutorial.md, typed in the order of the page in an empty folder, prints what the page shows.
+// Every command of docs/tutorial.md, typed in the page's order in an empty folder, prints the text on the page.
 namespace afm::app {
 namespace tutorial_test {
 
@@ -96,7 +96,7 @@ std::string without_name(const std::string& line) {
   return line.rfind(name, 0) == 0 ? line.substr(name.size()) : line;
 }
 
-// In this order; a busy machine prints other lines between them.
+// True if the output shows these lines in this order; a busy machine prints other lines between them.
 bool shows(const std::string& output, const std::string& shown) {
   const std::vector<std::string> wanted = lines_of(shown);
   auto next = wanted.begin();

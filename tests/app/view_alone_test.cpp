@@ -83,7 +83,7 @@ TEST_F(ViewAlone, AnUnattendedWindowStaysShowsItselfAndMakesWay) {
   EXPECT_EQ(program.ends(), 0) << program.said();
 }
 
-// Its first press acts on the wall that it has come to, whatever the demonstration was doing.
+// The visitor's first press acts on the wall as they found it, whatever the demonstration was doing.
 TEST_F(ViewAlone, AVisitorGetsTheSampleOfTheirFirstPress) {
   support::LiveProgram program(view({"--unattended", "--idle", "5"}), display_.name());
   for (const char* sample : {"Gold", "Silicon nitride", "Gold"}) {
@@ -94,7 +94,7 @@ TEST_F(ViewAlone, AVisitorGetsTheSampleOfTheirFirstPress) {
     xdotool("key " + key);
     ASSERT_TRUE(program.says("a visitor has arrived")) << program.said();
     ASSERT_TRUE(program.says("chosen: " + std::string(sample))) << program.said();
-    // the demonstration's force is gone, and what the wall says next is for the chosen sample
+    // the demonstration's force is off, and the wall's next texts are about the chosen sample
     ASSERT_TRUE(program.says("force off")) << program.said();
     ASSERT_EQ(program.says_one_of({"Press Turn-On", "force on"}), "Press Turn-On") << program.said();
   }

@@ -48,7 +48,7 @@ class ViewParticles : public ::testing::Test {
     ASSERT_EQ(done.exit_code, 0) << "xdotool " << what << ": " << done.err << " (package xdotool)";
   }
 
-  // With the particles of row.toml, recorded in the folder `kept`.
+  // View of the particles of row.toml, recorded in the folder `kept`.
   support::LiveProgram recorded_view() const {
     return {
         {support::touchafm(), "view", "--particles", folder_.file("row.toml"), "--size", "640x480", "--eye-width",
@@ -120,15 +120,15 @@ TEST_F(ViewParticles, ArePushedAndTakenBackAndReplayedBitForBit) {
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
-  // another session: a push, all put back, and one after another taken back, the last of the session before
+  // another session: a push, all put back, and both taken back in turn, the last one from the session before
   ASSERT_TRUE(press("2", "chosen: ")) << view.said();
   ASSERT_TRUE(push(view, 0.026)) << view.said();
   ASSERT_TRUE(press("r", all_back)) << view.said();
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(press("BackSpace", one_back)) << view.said();
-  // with the other tool: another session, whose spheres stick
+  // another session with the other tool, on which spheres stick
   ASSERT_TRUE(press("0", "tool grip: the tip holds what it touched")) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
-  // and by the other law
+  // and another with the other law
   ASSERT_TRUE(press("Insert", "setting: friction law area; Delete chooses the next")) << view.said();
   ASSERT_TRUE(press("Delete", "friction law amontons: in use")) << view.said();
   ASSERT_TRUE(push(view, 0.018)) << view.said();
@@ -174,7 +174,7 @@ TEST_F(ViewParticles, ArePlannedByKeysAndMouseAndPushedAlongAGroove) {
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   ASSERT_TRUE(press("F9", "groove: off")) << view.said();
   ASSERT_TRUE(press("d", "plan: particle 1, 121 nm to go; aim within 4")) << view.said();
-  // on the sample before the row: another place for the sphere
+  // a place for the sphere, on the sample in front of the row
   xdotool("mousemove 320 285 click 1");
   ASSERT_TRUE(view.says("plan: particle 1, ")) << view.said();
   ASSERT_TRUE(press("w", "plan: particle 2, ")) << view.said();
@@ -236,7 +236,7 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   ASSERT_TRUE(push(view, 0.018)) << view.said();
   ASSERT_TRUE(press("F5", "looking again, as long as the tip stays lifted")) << view.said();
   ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
-  // without a plan, a press on the bare sample does the same, so that a wand needs no key
+  // without a plan, a press on the bare sample has the same effect, so that a wand needs no key
   xdotool("mousemove 320 285 click 1");
   ASSERT_TRUE(view.says("looking again, as long as the tip stays lifted")) << view.said();
   ASSERT_TRUE(view.says("looked again: particle 1 lies ")) << view.said();
@@ -248,7 +248,7 @@ TEST_F(ViewParticles, AreShownAsAPictureThatAKeyMeasuresAgain) {
   ASSERT_TRUE(press("End", "load of a look: 33.9 pN, gentle; the most is 67.9 pN")) << view.said();
   ASSERT_TRUE(press("BackSpace", "take back: no push at level 2")) << view.said();
   ASSERT_TRUE(press("0", "tool grip: the tip holds what it touched")) << view.said();
-  // another level: no picture, and another picture
+  // other levels: one without a picture, one with a new picture
   for (const char* setting : {"friction law ", "lever ", "tip ", "medium ", "tool grip", "level as at the start"}) {
     ASSERT_TRUE(press("Insert", (std::string("setting: ") + setting).c_str())) << view.said();
   }
@@ -294,7 +294,7 @@ TEST_F(ViewParticles, HaveNoOldPictureWhereTheTipHidesOrTurnsThem) {
   EXPECT_THAT(refused("--particles gold-row --seed 3"), HasSubstr("--level"));
 }
 
-// A set whose sample keeps marks, and what the window says of them.
+// A set whose sample keeps marks, and the window's messages about them.
 struct Marked {
   const char* set;
   const char* nothing_yet;  // text while there is nothing to take back

@@ -66,7 +66,7 @@ class ViewTest : public ::testing::Test {
     xdotool("mousemove 320 240 mousedown 3 mousemove 320 " + std::to_string(240 - rise) + " mouseup 3");
   }
 
-  // Where a point of the room is seen with one eye.
+  // Pixel at which one eye sees a point of the room.
   glm::dvec2 pixel_of(const glm::dvec3& point_m) const {
     scene::Wall one_eyed = stage_.wall;
     one_eyed.viewers.front().ipd_m = 0.0;

@@ -91,7 +91,7 @@ bool whole_pulled_contact(const std::string& said) {
   return std::any_of(all.begin(), all.end(), [](const Contact& contact) { return contact.whole && contact.told > 0; });
 }
 
-// Logged once, not in each frame while the wand goes on pulling.
+// The message is logged once, not in each frame while the wand continues to pull.
 void expect_locked_in_contact(const std::string& said) {
   for (const Contact& contact : contacts_in(said)) {
     EXPECT_EQ(contact.moved, 0) << said;

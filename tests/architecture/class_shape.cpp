@@ -11,7 +11,7 @@ namespace afm::support {
 
 namespace {
 
-// A declaration in a class, as far as it has been read.
+// A declaration in a class, up to the place that has been read.
 struct Declaration {
   std::string first;       // first word
   int commas = 0;          // number between declarators
@@ -173,7 +173,7 @@ std::set<std::string> owners_of_members(std::string_view source) {
       continue;
     }
     if (token == "{") {
-      // all braces but those of namespaces are skipped
+      // skips all braces except those of namespaces
       std::size_t name = i;
       while (name > 0 && (tokens[name - 1] == "::" || (is_name(tokens[name - 1]) && tokens[name - 1] != "namespace")))
         --name;

@@ -125,7 +125,7 @@ class SourceReader {
 
 void Prose::add(std::string_view piece, int line) {
   for (const char c : piece) {
-    // one space between words, however a line is broken
+    // one space between words, regardless of line breaks
     if (is_space(c) && !text.empty() && text.back() == ' ') continue;
     text += is_space(c) ? ' ' : c;
     lines.push_back(line);

@@ -99,7 +99,7 @@ bool has_option(const CommandDescription& command, std::string_view name) {
                      [&](const auto& group) { return std::any_of(group.options.begin(), group.options.end(), is_it); });
 }
 
-// What is wrong with a quoted command; empty: nothing.
+// Fault of a quoted command; empty: none.
 std::string fault_of(const CommandDescription& program, const Quotation& quotation) {
   const std::vector<std::string> words = words_of(quotation.text);
   const CommandDescription* command = &program;

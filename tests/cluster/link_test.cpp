@@ -37,7 +37,7 @@ using testing::HasSubstr;
 
 constexpr std::int64_t kLongestWaitNs = 20'000'000'000;  // limit that ends a hanging test
 
-// A master and a node in one process: DDS hands over what they write without the network.
+// A master and a node in one process: DDS passes their messages without the network.
 class ClusterLinkTest : public testing::Test {
  protected:
   static ClusterNetwork network(std::uint32_t domain) {
@@ -170,7 +170,7 @@ TEST_F(ClusterLinkTest, ASecondMasterRefusesToDriveTheSameWall) {
   EXPECT_THAT(second.error().message, HasSubstr("another master"));
 }
 
-// Two that have not heard one another before they began, as if started in one moment.
+// Two masters that had not heard one another before they began, as if started at the same moment.
 TEST_F(ClusterLinkTest, OfTwoMastersTheLaterOneMustEndAndTheNodesComeBackToTheOther) {
   using Rival = MasterLink::Rival;
   // first, because the first to open the domain in a process closes it for all
@@ -233,7 +233,7 @@ TEST_F(ClusterLinkTest, ReceivesOnTheNamedInterfaceAlone) {
   EXPECT_GE(receivers, 2);  // sockets for discovery and data
 }
 
-// What a person has configured for other programs that use Cyclone does not reach a wall: here a log of everything.
+// A person's configuration for other programs that use Cyclone has no effect on a wall: here a log of everything.
 TEST_F(ClusterLinkTest, IgnoresTheEnvironment) {
   const support::ScratchFolder folder;
   const std::string log = folder.file("dds.log");

@@ -23,7 +23,7 @@ class MembershipTest : public testing::Test {
     membership_.answer(ready, now_ns_);
   }
 
-  // Both have been in time three times.
+  // Lets both nodes answer in time three times.
   void join() {
     for (int i = 0; i < Membership::kLeastInTime; ++i) {
       begin();
@@ -39,7 +39,7 @@ class MembershipTest : public testing::Test {
     membership_.drawn(now_ns_);
   }
 
-  // How long the master waits for the frame.
+  // Time for which the master waits for the frame.
   std::int64_t waited_ns() const {
     for (std::int64_t waited = 0;; waited += kMs / 10) {
       if (membership_.complete(now_ns_ + waited)) return waited;
@@ -121,7 +121,7 @@ TEST_F(MembershipTest, TakesBackANodeThatAnswersThreeFramesInARow) {
     membership_.end();
   }
   ASSERT_EQ(membership_.missing(), 2U);
-  // it answers after its frame was shown, and once too late
+  // answers after their frame was shown, one of them too late
   for (const std::int64_t after_ms : {5, 5, 60, 5, 5}) {
     begin();
     answer(0, number_);

@@ -34,7 +34,7 @@ TEST(FileKinds, AreRecognisedByTheirBeginning) {
     EXPECT_EQ(name_of(other), "") << other;
 }
 
-// Its header is any text: the number of triangles must fill the file, of which only the beginning is read.
+// The header may be any text: the number of triangles must match the file's size, and only the beginning is read.
 TEST(FileKinds, ABinaryStlIsRecognisedByItsSize) {
   std::string header(84, 'x');
   header.replace(80, 4, std::string("\x02\x01\0\0", 4));

@@ -19,7 +19,7 @@ namespace latest_value_test {
 
 using afm::core::LatestValue;
 
-// All words of a whole value are equal.
+// Block whose words are all equal if it is whole.
 using Block = std::array<std::uint64_t, 64>;
 
 Block filled(std::uint64_t number) {
@@ -118,7 +118,7 @@ TEST(LatestValue, OutlivesAWriterKilledAtAnyMoment) {
     ::kill(writer, SIGKILL);
     ASSERT_EQ(::waitpid(writer, nullptr, 0), writer);
 
-    // either whole or empty, and in bounded time: the loop inside has a fixed number of attempts
+    // either whole or empty, and in bounded time, since the loop inside has a fixed number of attempts
     const auto left = (*channel).load();
     if (left) {
       EXPECT_TRUE(whole(*left));

@@ -37,7 +37,7 @@ class Stderr {
   FileDescriptor before_;
 };
 
-// Reads until `end` has come, or nothing has come for five seconds.
+// Reads until `end` arrives, or nothing arrives for five seconds.
 std::string read_until(int descriptor, std::string_view end) {
   std::string text;
   std::array<char, 4096> part{};

@@ -71,7 +71,7 @@ TEST(SpscRing, SurvivesGarbageInItsIndices) {
     std::memcpy(reinterpret_cast<char*>(&ring), &garbage[0], sizeof(std::uint64_t));
     std::memcpy(reinterpret_cast<char*>(&ring) + 64, &garbage[1], sizeof(std::uint64_t));
 
-    // at most what fits is popped, and then the ring works again
+    // at most the capacity is popped, and then the ring works again
     int popped = 0;
     while (ring.pop()) ++popped;
     EXPECT_LE(popped, 8);

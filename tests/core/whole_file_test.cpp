@@ -54,7 +54,7 @@ TEST_F(WholeFile, ThatIsNewReplacesNoFile) {
   EXPECT_EQ(files(), 1);
 }
 
-// Of two programs that write a file at once, one is refused.
+// If two programs write a file at the same time, one is refused.
 TEST_F(WholeFile, ThatIsNewIsWrittenByOneOfMany) {
   constexpr int kWriters = 8;
   std::atomic<int> written{0};
@@ -67,7 +67,7 @@ TEST_F(WholeFile, ThatIsNewIsWrittenByOneOfMany) {
   EXPECT_EQ(files(), 1);
 }
 
-// Links under the names that a temporary file had before: what they lead to must not be touched.
+// Links under former names of temporary files: their targets must not be touched.
 TEST_F(WholeFile, FollowsNoLinkThatWasLaidForIt) {
   folder_.write("victim", "precious");
   for (const char* suffix : {".part", ".partial", ".tmp"}) fs::create_symlink(path("victim"), path("a") + suffix);
@@ -137,7 +137,7 @@ TEST_F(WholeFile, LeavesNothingPartialWhereItCannotBeWritten) {
   EXPECT_EQ(files(), 1);
 }
 
-// Before the work whose result it would lose, and leaving nothing behind.
+// Refused before the work whose result would be lost, without leaving a file.
 TEST_F(WholeFile, IsRefusedInAdvanceWhereItCannotBeWritten) {
   fs::create_directory(path("folder"));
   EXPECT_TRUE(check_writable(path("new")));

@@ -99,7 +99,7 @@ std::string word(std::string text) {
   return text;
 }
 
-// Places in the file, known after it was put together once.
+// Places in the file, known after a first assembly.
 struct Places {
   std::uint64_t text = 0, volume = 0;
   std::vector<std::uint64_t> sets;

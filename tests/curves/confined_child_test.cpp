@@ -114,7 +114,7 @@ TEST(ConfinedStream, WaitsForEachMessageSoLongAndNoLonger) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
-// "S", "R", ...; "Z" or nothing once it is dead.
+// State of a process, such as "S" or "R"; "Z" or empty once it is dead.
 std::string state_of(pid_t process) {
   std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
   std::string number, name, state;
@@ -138,7 +138,7 @@ TEST(ConfinedChild, DiesWithItsParent) {
   while (!(std::ifstream(children) >> child) && std::chrono::steady_clock::now() < end)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   ASSERT_GT(child, 0);
-  // it has said what it dies with by then: an hour of sleep lies before it
+  // time for the process to set its parent-death signal; it then sleeps for an hour
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   ::kill(parent, SIGKILL);
   ::waitpid(parent, nullptr, 0);

@@ -163,7 +163,7 @@ TEST_F(ForceMap, RefusesAPixelThatItLacks) {
   EXPECT_TRUE(std::isnan(map->heights_m()[5]));
 }
 
-// As of a few curves extracted from a map of quantitative imaging.
+// Few curves extracted from a map of quantitative imaging.
 TEST_F(ForceMap, OfAFewCurvesOnALargeGridHasPixelsWithoutOne) {
   const auto map = load(test::on_finer_grid(test::jpk_map(test::sticky_curve), 129));
   EXPECT_EQ(map->grid().columns, 387U);

@@ -49,7 +49,7 @@ Parameters parameters_of(const RecordedCurve& curve) {
   return {curve.metadata.parameters.begin(), curve.metadata.parameters.end()};
 }
 
-// All of the setup's numbers as they were given, under their JSON keys.
+// Expects all numbers of the setup under their JSON keys.
 void expect_every_number(const CurveRun& run, const RecordedCurve& read) {
   const Parameters found = parameters_of(read);
   int numbers = 0;
@@ -125,7 +125,7 @@ CurveRun run_of_events(const char* model, const char* step, bool events_only) {
   return run ? *std::move(run) : CurveRun{};
 }
 
-// Ten times the samples that a curve may have; none of them is asked for.
+// Ten times the largest number of samples of a curve; none of them is requested.
 TEST(EventsAlone, AreNotRefusedForSamples) {
   for (const char* model : {"dmt", "paper-rule"}) {
     const auto json = curve_json(run_of_events(model, "0.0005pm", true));

@@ -46,7 +46,7 @@ Read read_part(const std::string& path, std::size_t count, const SeriesPart& par
   return read;
 }
 
-// From the confined child that reads it.
+// The curve comes from the confined child that reads it.
 TEST(HandedCurve, IsTheSameBitForBitAndWhole) {
   RecordedCurve curve = risen(3);
   for (std::size_t i = 0; i < curve.points.size(); ++i) curve.time_s.push_back(static_cast<double>(i) / 3.0);

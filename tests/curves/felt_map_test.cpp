@@ -69,7 +69,7 @@ TEST_F(FeltMapTest, HasTheModuliOfItsFitsInTheirPlaces) {
   ASSERT_EQ(felt->laws.rows, 2U);
   EXPECT_NEAR(felt->laws.spacing_m, 1e-6, 1e-12);
   for (std::size_t cell = 0; cell < 6; ++cell) {
-    // from the bottom; E* of nu = 0.5
+    // rows from the bottom; E* for nu = 0.5
     EXPECT_NEAR(std::exp(static_cast<double>(felt->laws.ln_modulus[cell])), 1e6 * static_cast<double>(1 + cell) / 0.75,
                 100.0);
     EXPECT_FLOAT_EQ(felt->laws.adhesion_j_per_m2[cell], 30e-3F);
@@ -77,7 +77,7 @@ TEST_F(FeltMapTest, HasTheModuliOfItsFitsInTheirPlaces) {
   EXPECT_EQ(felt->filled, 0U);
   EXPECT_TRUE(scene::is_valid(felt->laws));
   EXPECT_TRUE(scene::is_valid(felt->heights, felt->heights.size()));
-  // each curve lies 10 nm above the one before it, there and back
+  // each curve lies 10 nm above the one before it, on approach and retract
   EXPECT_NEAR(static_cast<double>(felt->heights.height_m[1] - felt->heights.height_m[0]), 10e-9, 1e-12);
   EXPECT_NEAR(static_cast<double>(felt->heights.height_m[3] - felt->heights.height_m[5]), 20e-9, 1e-12);
 }

@@ -30,7 +30,7 @@ class Hdf5Links : public testing::Test {
     return curve ? "accepted" : curve.error().message;
   }
 
-  // In the place of the column of that name.
+  // Replaces the column of that name.
   void put(const char* column, hid_t properties) {
     ASSERT_GE(H5Ldelete(file, column, H5P_DEFAULT), 0);
     const hsize_t count = 3;

@@ -18,7 +18,7 @@ class Hdf5Text : public testing::Test {
  protected:
   Hdf5Text() { EXPECT_TRUE(write_curve(path_, CurveFormat::Hdf5, test::hertz_curve()).has_value()); }
 
-  // In the place of the curve's attribute.
+  // Replaces the attribute of the curve.
   void put_fixed(const char* key, const std::string& text, std::size_t length) {
     const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t curve = H5Gopen2(file, "0", H5P_DEFAULT);

@@ -256,7 +256,7 @@ TEST(IgorImage, IsReadExactly) {
   EXPECT_THAT(image.image.metadata, testing::Contains(testing::Pair("ScanRate", "1")));
 }
 
-// As Igor on a Macintosh with another processor wrote it.
+// File written by Igor on a Macintosh with another processor.
 TEST(IgorImage, IsTheSameInEitherOrderOfItsBytes) {
   const auto file = [](bool big) {
     return igor_image_file(3, 2, {"PhaseTrace", "HeightTrace"}, 5e-9, "ScanRate: 1\r", layers(), big);

@@ -153,7 +153,7 @@ TEST(JpkFile, RefusesWhatItDoesNotUnderstand) {
               HasSubstr("it is a file of Excel or another Office program; save its table as .csv"));
 }
 
-// As JPK's own program writes a corrected curve, and older instruments a height that they did not measure.
+// A corrected curve as written by JPK's own program, and a height that older instruments did not measure.
 TEST(JpkFile, HasNumbersWithoutAnEncoderAndThoseOfARule) {
   auto entries = jpk_entries();
   const std::string stored = entries["segments/0/channels/vDeflection.dat"];
@@ -336,7 +336,7 @@ TEST(IgorFile, SaysThatPointsWithinItWereNotRecorded) {
   EXPECT_THAT(gap->metadata.remarks, testing::Contains(HasSubstr("2 of its 40 points were not recorded")));
 }
 
-// What Asylum's program adds has no number of the curve, but a file without its end was not copied whole.
+// Asylum's own additions contain no number of the curve, but a file without its end was not copied whole.
 TEST(IgorFile, RefusesATrailerThatIsCut) {
   const std::string whole = igor_cycle().bytes() + "ForceDist:5e-06;IsForce:1; 0292 Force";
   EXPECT_TRUE(parse_curve(whole, "a.ibw").has_value());

@@ -270,7 +270,7 @@ TEST(LabCurves, InNewtonsSayThatACalibrationChangesNothing) {
   }
 }
 
-// As Fortran and LabVIEW write them; an editor may leave blanks behind a line.
+// Lines as written by Fortran and LabVIEW; an editor may leave blanks at their ends.
 TEST(LabCurves, MayHaveSignsAndBlanksBehindTheirLines) {
   const auto bytes = core::read_file(path_of("bom.tab"));
   ASSERT_TRUE(bytes.has_value());

@@ -182,7 +182,7 @@ TEST(LabImageFiles, TakeSensitivitiesInAnyUnit) {
   EXPECT_NEAR(read.image.channels[0].values[0] / (4 * 0.44 / 65536 * 12.5e-9), 1.0, 1e-9);
 }
 
-// Without another word, a header that says so is believed, and the user informed.
+// If nothing contradicts it, the header is believed, and the user informed.
 TEST(LabImageFiles, BelieveASizeOfPixelsThatAreNotSquareAndSayIt) {
   test::NanoscopeChannel fast = nanoscope("Height", 4, 2);
   fast.scan_size = "900 900 nm";
@@ -215,13 +215,13 @@ TEST(LabImageFiles, TakeTheHeightOfAStoppedScanFromItsLines) {
   EXPECT_THAT(area("800 800 nm", 8, 3, "\\Lines: 8"), testing::Pair(DoubleNear(800, 1e-6), DoubleNear(300, 1e-6)));
   EXPECT_THAT(area("800 800 nm", 4, 4, "\\Lines: 8"), testing::Pair(DoubleNear(800, 1e-6), DoubleNear(400, 1e-6)));
   EXPECT_THAT(area("800 600 nm", 8, 3, "\\Lines: 6"), testing::Pair(DoubleNear(800, 1e-6), DoubleNear(300, 1e-6)));
-  // where the size is that of the image, its lines do not count
+  // if the size is that of the image, the number of lines does not count
   EXPECT_THAT(area("800 400 nm", 8, 4, "\\Lines: 8"), testing::Pair(DoubleNear(800, 1e-6), DoubleNear(400, 1e-6)));
 }
 
 TEST(LabImageFiles, TakeAnIgorWaveOfOneLayer) {
   std::string bytes = test::igor_image_file(3, 2, {}, 5e-9, "", {1, 2, 3, 4, 5, 6});
-  // one layer more in the header, and the sum of its words as before
+  // one more layer in the header, with an unchanged sum of its words
   const auto word = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
   bytes[140] = 1;
   const int sum = word(2) + 256 * word(3) - 1;
@@ -249,7 +249,7 @@ TEST(LabImageFiles, SayThatTheirSizeOrHeightsAreImpossible) {
               ElementsAre(HasSubstr("a height of -2e+30 m is none of a microscope")));
 }
 
-// The same image with another value of a key in its header.
+// Same image with another value of a key in its header.
 std::string altered(const std::string& image, const std::string& key, const std::string& value) {
   constexpr std::size_t kHeader = 4096;
   std::string header = image.substr(0, kHeader);

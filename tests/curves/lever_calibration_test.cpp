@@ -228,7 +228,7 @@ TEST_F(Lever, RefusesWhatActsOnNothing) {
   options.inputs[LeverInput::Sensitivity] = {};
   EXPECT_THAT(refusal(options), HasSubstr("--contact-stiffness has no effect"));
 
-  // neither the sensitivity nor the temperature is in A Q f^1.3
+  // A Q f^1.3 contains neither the sensitivity nor the temperature
   options = gci;
   options.uncertainties = {{LeverInput::QualityFactor, 0.1, true}, {LeverInput::Temperature, 1.0, false}};
   EXPECT_THAT(refusal(options), HasSubstr("--uncertainty temperature"));

@@ -54,7 +54,7 @@ TEST_F(LiveParametersTest, ThePredictedCurveReachesTheFoldForces) {
   }
   EXPECT_NEAR(strongest, figures.force_before_joc.si, 1e-6 * std::abs(strongest));
   ASSERT_EQ(parameters_.curve().events.size(), 2U);
-  // 400 steps each way, and what the two jumps add
+  // 400 steps each way, plus the samples of the two jumps
   EXPECT_NEAR(static_cast<double>(parameters_.curve().samples.size()), 2.0 * 401.0, 5.0);
 }
 

@@ -117,7 +117,7 @@ TEST(NanoscopeCurve, MayHaveIntegersOfFourBytes) {
   EXPECT_DOUBLE_EQ(read(ramp).points[kPoints - 1].force.si, 500 * kLsb_v * kSensitivity * kSpringConstant);
 }
 
-// In older files the range behind the bracket is that of the screen.
+// In older files the range after the bracket is that of the screen.
 TEST(NanoscopeCurve, BelievesTheScaleOfAnInteger) {
   Ramp ramp = usual();
   ramp.channels[0].scale = "V [Sens. DeflSens] (0.0005 V/LSB) 12.5 V";
@@ -183,7 +183,7 @@ TEST(NanoscopeCurve, LeavesOutAHold) {
   }
 }
 
-// As many points as both branches: the version of the file gives the size of its integers.
+// A hold as long as both branches: the version of the file gives the size of its integers.
 TEST(NanoscopeCurve, MayHaveAHoldAsLongAsItsBranches) {
   Ramp ramp = usual();
   const RecordedCurve expected = read(ramp);

@@ -256,7 +256,7 @@ TEST(NanoscopeVolume, OfPeakForceTappingThatBeginsWithItsApproachIsNotTurned) {
   }
 }
 
-// From version 9.2 on, where integers of two bytes take four.
+// Files from version 9.2 on, in which integers of two bytes take four.
 TEST(NanoscopeVolume, MayHaveTwoBytesInFour) {
   Volume wide;
   wide.bytes = 4;
@@ -268,7 +268,7 @@ TEST(NanoscopeVolume, MayHaveTwoBytesInFour) {
   }
 }
 
-// As after an editor that lost or added a character of the header.
+// Damage by an editor that removed or added a character of the header.
 TEST(NanoscopeVolume, IsRefusedIfItsDataHaveMoved) {
   Volume wide;
   wide.bytes = 4;

@@ -89,7 +89,7 @@ TEST(SvgPlot, WritesPowersOfTenOnALogarithmicAxis) {
   EXPECT_THAT(text, HasSubstr(">here<"));
   EXPECT_THAT(text, Not(HasSubstr("<circle")));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
-  // what is not positive breaks the line in two
+  // values that are not positive break the line in two
   const std::size_t path = text.find("stroke=\"#123456\"");
   const std::size_t begin = text.rfind("<path", path);
   EXPECT_EQ(std::count(text.begin() + static_cast<std::ptrdiff_t>(begin),

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 constexpr std::size_t kMost = 1 << 20;
 
-// As in a zip archive: without zlib's own header.
+// Compressed as in a zip archive, without zlib's own header.
 std::string deflated(std::string_view content) {
   z_stream stream{};
   EXPECT_EQ(::deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, -MAX_WBITS, MAX_MEM_LEVEL, Z_DEFAULT_STRATEGY), Z_OK);
@@ -64,7 +64,7 @@ TEST(ZipArchive, HasEachOfManyEntries) {
   }
 }
 
-// One of them is found where another entry was found before.
+// Two entries have one name; the search for it begins where another entry was found.
 TEST(ZipArchive, HasTheFirstOfTwoEntriesOfOneName) {
   std::string bytes = test::stored_zip({{"a", "first"}, {"b", "second"}, {"c", "third"}});
   for (std::size_t at = bytes.find('c'); at != std::string::npos; at = bytes.find('c', at + 1)) {
@@ -105,11 +105,11 @@ TEST(ZipArchive, RefusesAnEntryThatIsNotWhatItSays) {
   std::string other = test::stored_zip({{"a", "one"}});
   other[other.find("one")] = 'x';
   EXPECT_THAT(reason(other, "a"), HasSubstr("\"a\" in its archive is damaged"));
-  // by a method that nobody here knows
+  // an unknown method of compression
   EXPECT_THAT(reason(test::stored_zip(entries, {}, {99, nullptr}), "a"), HasSubstr("\"a\" in its archive is damaged"));
 }
 
-// Each byte of the headers in turn: read, or refused in one line.
+// Every byte of the headers changed in turn: the archive is read, or refused in one line.
 TEST(ZipArchive, WithAnyByteChangedIsReadOrRefused) {
   const std::map<std::string, std::string> entries{{"a", "first"}, {"b", std::string(500, 'y')}};
   const std::string whole = test::stored_zip(entries, {}, kDeflated);

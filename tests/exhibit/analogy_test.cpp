@@ -75,7 +75,7 @@ TEST_F(AnalogyTest, ReplacesTheInstrumentWithItsPartsNamed) {
   EXPECT_NE(text.find("spring = cantilever; magnet = tip; iron plate = sample; "), std::string::npos) << text;
 }
 
-// What the servo feels does not depend on what is shown.
+// The displayed analogy has no effect on the force of the servo.
 TEST_F(AnalogyTest, TheServoFeelsTheSameSampleWhateverIsShown) {
   using enum Centerpiece;
   const std::size_t sample = scene_.sample_node();

@@ -131,7 +131,7 @@ class Flashes : public ::testing::Test {
     sample.material = tip_.material;
     return sample;
   }
-  // As the live window makes it.
+  // Moment as made by the live window.
   Moment moment(const CycleHistory& cycles, const JumpCues& cues, Procedure& procedure) {
     const bool ascending = cycles.ascending() || (cycles.pressed() && tip_.tip.z_m > 0.0);
     hint_ = procedure.update(tip_, {ascending, cycles.pressed(), cycles.cycles()}, tip_.time_ns);

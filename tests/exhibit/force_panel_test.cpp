@@ -24,7 +24,7 @@ using render::LabelBox;
 using render::MarkerLabel;
 using render::PlotMarker;
 
-// The plot on the paper's wall, millimetres, and a size of text that is never less than what is drawn.
+// Plot on the paper's wall, in millimetres, and a text size that is at least the drawn one.
 const LabelBox kPlot{{150.0F, 270.0F}, {720.0F, 808.0F}};
 const LabelBox kCaption{{158.0F, 268.0F}, {290.0F, 314.0F}};
 constexpr float kWidestCharacter = 0.60F * 30.0F, kLine = 36.0F;

@@ -24,7 +24,7 @@ constexpr double kStrokeM = 10e-9;
 constexpr int kTicks = 500;  // number per stroke
 constexpr double kPeriodM = 0.5e-9;
 
-// What the servo gives while a hand leads the tip along a line of this direction.
+// The servo's output while a hand leads the tip along a line of this direction.
 class Led {
  public:
   explicit Led(FrictionHistory& history, double angle_rad = 0.0) : history_(history), angle_rad_(angle_rad) {}

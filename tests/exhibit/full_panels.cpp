@@ -102,7 +102,7 @@ render::ForcePanel full_dial(const Phrases& phrases) {
   return SwingDial().panel(sample, tip, phrases);
 }
 
-// Of the last particle, with the longest numbers.
+// Picture of the last particle, with the longest numbers.
 servo::PictureNow old_picture(const scene::ParticleSet& set) {
   return {.level = 1,
           .known = std::vector<servo::Known>(set.particles.size(), servo::Known::Computed),

@@ -112,7 +112,7 @@ TEST(Guidance, SaysWhyTheForceWentOff) {
               AllOf(HasSubstr("the computer paused for a moment"), HasSubstr("Press Turn-On")));
 }
 
-// The log has the numbers of two of them.
+// The log contains the numbers of two of them.
 TEST(Guidance, GivesInEnglishTheReasonsOfTheLogOrAPersonsWords) {
   const std::map<scene::FaultCode, std::string> in_other_words{
       {scene::FaultCode::RendererHung, "the picture froze"},

@@ -27,7 +27,7 @@ double lightness(const Linear& light) {
   return 116.0 * std::cbrt(y) - 16.0;
 }
 
-// Without one kind of cone (Machado, Oliveira and Fernandes, IEEE TVCG 15, 1291 (2009), severity 1).
+// Colours as seen without one kind of cone (Machado, Oliveira and Fernandes, IEEE TVCG 15, 1291 (2009), severity 1).
 using Simulation = std::array<Linear, 3>;
 constexpr Simulation kProtanopia{
     {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}};

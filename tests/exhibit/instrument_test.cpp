@@ -55,7 +55,7 @@ class InstrumentTest : public test::PaperWall {
     return highest;
   }
 
-  // Nothing that is drawn is between an eye and the panel.
+  // Expects no drawn object between an eye and the panel.
   void expect_before_all(const render::FrameState& frame, const render::PanelPlacement& panel, scene::Eye which,
                          double share) const {
     const scene::Viewer& viewer = wall_.viewers.front();
@@ -95,7 +95,7 @@ TEST_F(InstrumentTest, TheLiftedTipAndHandleStayBelowTheBanner) {
   }
 }
 
-// From the deepest push to the pull-off; the tip is at the sample, and the lever bends by Z.
+// Bends from the deepest push to the pull-off; the tip is at the sample, and the lever bends by Z.
 TEST_F(InstrumentTest, TheLightMeetsTheLeversUpperFaceAtEveryBend) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     for (double share = -0.6; share <= 1.0; share += 0.05) {
@@ -115,7 +115,7 @@ TEST_F(InstrumentTest, TheLightMeetsTheLeversUpperFaceAtEveryBend) {
       for (const char* part : {"optics/laser", "optics/spot"}) {
         const glm::dvec3 to_part = origin(state, part) - lit;
         EXPECT_GT(glm::dot(face, glm::normalize(to_part)), kLeastAbove) << part << " " << share;
-        // all the way it stays above the lever, also where that bends up towards the chip
+        // the light stays above the lever all the way, also where the lever bends up towards the chip
         for (double way = 0.1; way <= 1.0; way += 0.1) {
           const glm::dvec3 there(lever_from_room * glm::dvec4(lit + way * to_part, 1.0));
           const double along = std::clamp(there.x / length, 0.0, 1.0);
@@ -150,7 +150,7 @@ TEST_F(InstrumentTest, LaserAndPhotodiodeAreSeenBelowTheBannerAndBetweenThePanel
   }
 }
 
-// At the height of the contact, the empty stage covered the panels' lower corners.
+// At the height of the contact, the empty stage would cover the panels' lower corners.
 TEST_F(InstrumentTest, TheEmptyStageIsWhereItIsBelowASample) {
   const auto stage_m = [&](std::optional<std::size_t> material) {
     render::FrameState state;
@@ -195,7 +195,7 @@ TEST_F(InstrumentTest, TheMarksOfTheUnbentLeverPassBesideTheTipAndOverTheSample)
   EXPECT_GT(shown, 40);
 }
 
-// After a pull-off the lever as it was hangs where the tip let go, and the jump's word is clear of tip and sample.
+// After a pull-off the former lever remains where the tip let go, and the word of the jump is clear of tip and sample.
 TEST_F(InstrumentTest, AGhostOfTheLeverHangsWhereTheTipLetGo) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const double release_m = z_joc(material);

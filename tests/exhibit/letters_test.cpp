@@ -76,7 +76,7 @@ TEST_P(LettersOfThePanels, ReachTwentyMinutesOfArcFromTheSweetSpotOfThePapersWal
   for (const render::Label& label : frame.labels) expect_large(label, label.placement, label.text);
 }
 
-// What a whole class reads has letters nearly as large as the guidance.
+// Texts for a whole class have letters nearly as large as the guidance.
 TEST_P(LettersOfThePanels, OfKeysAndOfALessonsWordsAreThoseOfTheGuidance) {
   constexpr double kShareOfGuidance = 0.7;
   ExhibitFiles files;

@@ -172,7 +172,7 @@ TEST_F(OwnModel, BecomesAProbeByItsRoles) {
   EXPECT_THAT(nothing.error().message, HasSubstr("needs a node for the role base and one for tip"));
 }
 
-// As exporters leave a mesh that was modelled far from the origin.
+// Mesh as left by exporters when it was modelled far from the origin.
 TEST_F(OwnModel, IsNoSampleBesideTheTip) {
   for (const auto& [place, is_sample] :
        {std::pair("[0, 0, 0]", true), std::pair("[-4e-8, 0, 0]", true), std::pair("[1e-7, 0, 0]", false),

@@ -135,7 +135,7 @@ void expect_apart(const std::vector<render::Image>& shown, const std::string& te
   }
 }
 
-// From a small window to the widest that the processor draws.
+// Widths from a small window to the widest that the processor draws.
 TEST_F(ParticlePictures, TellMeasuredComputedAndStaleApartWithoutColour) {
   for (const std::uint32_t width_px : {400U, 1280U, 3840U}) {
     auto renderer = make_renderer(stage_->wall_scene.scene(), stage_->renderer_options(width_px));
@@ -145,7 +145,7 @@ TEST_F(ParticlePictures, TellMeasuredComputedAndStaleApartWithoutColour) {
   }
 }
 
-// Of a small window, and next to each other 7680 pixels wide.
+// Pictures of a small window, and of one 7680 pixels wide with both eyes side by side.
 TEST_F(ParticlePictures, TellThemApartInEveryStereoMode) {
   for (const std::uint32_t width_px : {400U, 3840U}) {
     auto renderer = make_renderer(stage_->wall_scene.scene(), stage_->renderer_options(width_px));

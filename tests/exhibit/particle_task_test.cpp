@@ -163,7 +163,7 @@ TEST(ParticleTaskOfAStudent, FailsByAnOldPictureAndIsSolvedByLooks) {
   }
 }
 
-// From the place of the file, and from another one, which no plan of a file knows.
+// Starts at the file's place, and at another one for which no file has a plan.
 TEST(ParticleTaskOfAStudent, SteersARodAcrossItsPadsInThreeMinutes) {
   scene::ParticleSet other = test::particle_set("tube-and-electrodes");
   other.particles.front().angle_rad = -0.5;

@@ -288,7 +288,7 @@ TEST_F(ParticlesPanel, SaysWhatAPlanAsksOfTheHand) {
   EXPECT_EQ(row(particles_panel(now, test::english()), Phrase::PlanHand).name, "") << "before the servo has said it";
 }
 
-// In brackets, and said to be unused: recognisable without colour.
+// The unused figure is in brackets, recognisable without colour.
 TEST_F(ParticlesPanel, ShowsTheOtherLawsFigureInBrackets) {
   const auto other = row(panel(test::push_of(set_, 0, PushState::Holds)), Phrase::PushOtherLaw);
   EXPECT_EQ(other.name, "(by another law)");
@@ -344,7 +344,7 @@ TEST_F(ParticlesPanel, SpeaksGerman) {
   EXPECT_EQ(row(shown, Phrase::PushOtherLaw, german).value, "(3,53 nN)");
 }
 
-// What the panel shows of a set that is not a phrase.
+// Texts of the panel about a set that are not phrases.
 std::vector<std::string> words_of(const scene::ParticleSet& set) {
   std::vector<std::string> words{set.title, set.medium};
   const auto add = [&](std::span<const scene::SourcedValue> sources, std::string_view key) {

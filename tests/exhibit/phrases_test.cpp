@@ -55,7 +55,7 @@ TEST(Phrases, OfAllLanguagesHaveEveryKeyOnce) {
   EXPECT_EQ(files, static_cast<std::size_t>(std::distance(begin(all), end(all)))) << "kLanguages lists each file";
 }
 
-// What the wall quotes of the files that we ship.
+// Words of our files that the wall quotes.
 TEST(Phrases, OfGermanTranslateEveryWordOfMaterialsAndProbes) {
   const Phrases phrases = german();
   const std::string file = core::read_file(test::kPhraseFolder + "de.toml").value();

@@ -147,7 +147,7 @@ TEST_F(Planner, TakesTheSphereAndThePlaceAtWhichAPersonPoints) {
   EXPECT_LT(glm::distance(to_m(planner), free_m), 1e-15);
   EXPECT_EQ(planner.plan().from_m[0], place_m(3).x);
   EXPECT_TRUE(can_be_sent(planner));
-  // from where it lies by then
+  // from its current place
   pages_[0].poses[3].x_m += 20e-9;
   ASSERT_TRUE(planner.point(onto(free_m), now()));
   EXPECT_EQ(planner.plan().from_m[0], place_m(3).x);
@@ -186,7 +186,7 @@ TEST_F(Planner, SeesTheSampleWhereTheWallDrawsIt) {
   EXPECT_FALSE(ray_on_sample(wall, {.material = 0, .centerpiece = Centerpiece::Journey}, {}));
 }
 
-// Rows N33 and N39 of the specification: aim and speed of what the panel shows.
+// Rows N33 and N39 of the specification: aim and speed shown on the panel.
 TEST_F(Planner, AsksForTheAimAndTheSpeedOfTheEquations) {
   const physics::Length radius = set_.setup.species.front().contact.tip_radius;
   // half angle and radii with rho = 40 nm exactly: without a cone, rho = R_t + R_p

@@ -47,7 +47,7 @@ constexpr std::array kWidthsPx{400U, 1280U, 2110U, 3840U, 7680U};
 constexpr std::array kPresets{"powerwall", "two-projectors", "3d-tv", "desk-red-cyan", "tiled-2x2", "blended",
                               "curved",    "cave",           "floor", "wide",          "phone"};
 
-// What a visitor can see on one wall in one language, at one width.
+// Expects everything that a visitor can see on one wall, in one language and at one width, to be readable.
 void expect_readable(const Stage& stage, const render::FrameState& frame, std::uint32_t width_px,
                      const std::string& where) {
   const Phrases& phrases = stage.phrases();
@@ -69,7 +69,7 @@ void expect_readable(const Stage& stage, const render::FrameState& frame, std::u
   if (glm::length(frame.panels.banner.placement.up_m) * width_px / stage.screen.width_m() > kLeastBannerPx) {
     EXPECT_GE(letter_px, kLeastLetterPx) << where;
   }
-  // beside the screens of a cluster that are dark
+  // beside dark screens of a cluster
   if (width_px >= 1280) {
     render::Banner alone = shown;
     alone.warning = phrases[Phrase::MasterMissing];
@@ -287,7 +287,7 @@ TEST(PanelFonts, HoldEveryLetterOfEveryLanguage) {
       unsigned int letter = 0;
       at += ImTextCharFromUtf8(&letter, at, end);
       if (letter < ' ') continue;
-      // the last has what a number is made of
+      // the last font contains only the characters of numbers
       for (ImFont* font : std::span(fonts.fonts).first(render::kTextStyles - 1)) {
         EXPECT_NE(font->FindGlyphNoFallback(static_cast<ImWchar>(letter)), nullptr) << "U+" << std::hex << letter;
       }
@@ -295,7 +295,7 @@ TEST(PanelFonts, HoldEveryLetterOfEveryLanguage) {
   }
 }
 
-// From the last row of a room, 10 m away, 40 minutes of arc.
+// Seen from the last row of a room, 10 m away: 40 minutes of arc.
 TEST(PanelFonts, ShowTheLiveForceInDigitsForTheLastRow) {
   constexpr double kLeastMm = 116.3;
   const render::PanelFonts fonts = test::load_panel_fonts(2000.0, 1e-3);

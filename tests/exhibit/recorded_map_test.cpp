@@ -49,7 +49,7 @@ class RecordedMap : public ::testing::Test {
     session_.parameters.law_map = 1;
   }
 
-  // The files that draw a moment, if the map is said to be there; for an error its message.
+  // Files that draw a moment, with the map at this path if one is given.
   core::Result<ExhibitFiles> again(const std::string& force_map = {}) const {
     ExhibitFiles files;
     files.assets_dir = files_.assets_dir;
@@ -103,7 +103,7 @@ TEST_F(RecordedMap, IsMissingFromOlderSessionsAndNeedlessForOthers) {
   EXPECT_THAT(refusal(files_.force_map), HasSubstr("the hand of this session felt no map"));
 }
 
-// The session has the curve of its pixel: the map is only a picture beside it.
+// The session contains the curve of its pixel, so that the map is only a picture beside it.
 TEST_F(RecordedMap, OfOnePixelIsShownIfItIsTheSame) {
   session_.law_map.reset();
   session_.force_map->reading = "{}";

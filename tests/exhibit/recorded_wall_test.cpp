@@ -15,7 +15,7 @@ namespace recorded_wall_test {
 const std::vector<std::string> kShown{"mica", "gold", "nitride"};
 constexpr std::int64_t kFirstNs = 5'000'000'000, kFrameNs = 100'000'000;
 
-// Everything of the moment is something else than what a wall shows at its start.
+// A moment in which everything differs from a wall at its start.
 Moment changed() {
   Moment moment;
   moment.wall.navigation =

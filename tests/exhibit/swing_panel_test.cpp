@@ -73,7 +73,7 @@ TEST(SwingPanel, ShowsOneStateBeyondTheFolds) {
   for (const double z_nm : {12.0, 25.0}) EXPECT_EQ(end_of(panel_at(z_nm), "edge"), nullptr) << z_nm;
 }
 
-// Where the lever at rest touches, the tip taps on or sticks.
+// A height at which a lever at rest touches the sample: the tip continues to tap, or sticks.
 TEST(SwingPanel, ShowsTheEdgeBeyondWhichTheTipSticks) {
   EXPECT_EQ(panel_at(-2.0).stage, "both states exist at this height");
   EXPECT_NE(end_of(panel_at(-2.0), "edge"), nullptr);
@@ -102,7 +102,7 @@ TEST(SwingPanel, ShowsStatesBesideTheResonance) {
   const render::ForcePanel free = panel_of(beside, 40.0);
   const double ratio = 300.1 / 300.0;
   expect_hand(free, "free", 20.0, std::atan2(ratio / 400.0, 1.0 - ratio * ratio) / kDegree);
-  // as touchafm curve --mode tapping --at 17nm prints them
+  // values as printed by touchafm curve --mode tapping --at 17nm
   const render::ForcePanel both = panel_of(beside, 17.0);
   EXPECT_EQ(both.stage, "both states exist at this height");
   expect_hand(both, "attractive", 16.910, 125.22);

@@ -59,7 +59,7 @@ TEST(WallPictures, CorrectEachProjector) {
   EXPECT_FALSE(blended.outputs[0].composition.warp || blended.outputs[0].composition.mesh_lines);
   EXPECT_TRUE(curved.outputs[0].composition.warp && curved.outputs[0].composition.mesh_lines);
 
-  // without projectors the screens are blended as their corners say
+  // without projectors, screens are blended according to their corners
   scene::Wall screens = preset("blended");
   screens.outputs.clear();
   const auto plan = plan_wall(screens, {}).value();

@@ -45,7 +45,7 @@ class WallSceneTest : public test::PaperWall {
     return glm::dvec3(state.room_from_node[scene_.scene().find_node(node).value()][3]);
   }
 
-  // Where the apex is, by the drawn transforms.
+  // Place of the apex according to the drawn transforms.
   glm::dvec3 apex(const WallState& pose) const { return origin_of(frame(pose), "probe/apex"); }
 
   glm::dvec3 contact() const { return origin_of(frame({}), "sample"); }
@@ -216,14 +216,14 @@ TEST_F(WallSceneTest, NineMaterialsStandApartAndAllCanBePicked) {
   const auto targets = many.swatch_targets();
   ASSERT_EQ(targets.size(), 9U);
   for (std::size_t aim = 0; aim < targets.size(); ++aim) {
-    // from the eye, as the mouse points, and from the hand, as the wand does
+    // rays from the eye, like the mouse's, and from the hand, like the wand's
     for (const glm::dvec3& from : {viewer_, many.places().wand_grip_m()}) {
       const input::Ray ray{.origin_m = from, .direction = glm::normalize(targets[aim].center_m - from)};
       EXPECT_EQ(input::pick(ray, input::kPickConeRad, targets), aim);
     }
   }
 
-  // as the viewer sees them on the wall, no label covers another
+  // from the viewer's place, no label covers another on the wall
   render::FrameState state;
   many.update({.material = 0}, state);
   struct Box {
@@ -257,7 +257,7 @@ TEST_F(WallSceneTest, TheStrokeFillsTheSameRoomWithOtherParameters) {
   EXPECT_NEAR(glm::length(high - low), 0.30 * screen_.height_m(), 0.002);
 }
 
-// The sample of a material as it is drawn, and the ruler beside it.
+// Size of a material's drawn sample, and the ruler beside it.
 class SampleSize : public WallSceneTest {
  protected:
   curves::SampleModel laid(const WallScene& scene, std::size_t material, const scene::MaterialEntry& entry) const {
@@ -363,7 +363,7 @@ TEST_F(SampleSize, IsTheSameForEveryMaterialOfTheLibrary) {
   }
 }
 
-// Nothing of what is drawn or felt with a material's own parameters has changed for the paper's samples.
+// A material's own parameters change nothing of what is drawn or felt of the paper's samples.
 TEST_F(SampleSize, IsItsOwnForThePapersSamples) {
   for (std::size_t i = 0; i < materials_.materials.size(); ++i) {
     const curves::SampleModel model = laid(scene_, i, materials_.materials[i]);

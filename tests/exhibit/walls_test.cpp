@@ -101,7 +101,7 @@ struct Rectangle {
   }
 };
 
-// Where a panel is seen on the screen, 0..1 each way.
+// Rectangle of a panel as seen on the screen, 0..1 each way.
 Rectangle seen(const render::PanelPlacement& panel, const scene::EyeView& eye) {
   Rectangle rectangle;
   for (const double x : {0.0, 1.0}) {
@@ -114,7 +114,7 @@ Rectangle seen(const render::PanelPlacement& panel, const scene::EyeView& eye) {
   return rectangle;
 }
 
-// What must be read, with the screen of the stage that it is seen on.
+// An object that must be readable, and the screen of the stage on which it is seen.
 struct Place {
   std::string name, screen;
   Rectangle rectangle;
@@ -292,7 +292,7 @@ TEST(EveryWall, HasTwoMorePlacesIfItIsWide) {
   }
 }
 
-// A viewer of a floor sees what leans towards him higher on the screen.
+// On a floor, parts that lean towards the viewer are seen higher on the screen.
 TEST(EveryWall, ShowsLaserAndPhotodiodeBelowTheBanner) {
   for (const char* preset : {"powerwall", "3d-tv", "desk-red-cyan", "floor", "wide"}) {
     const auto stage = stage_on(fmt::format("{}/assets/walls/{}.toml", support::source(), preset)).value();

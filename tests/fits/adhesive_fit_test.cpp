@@ -104,7 +104,7 @@ class Curve {
     return state.depth_m + state.force_n / set_.spring_n_per_m;
   }
 
-  // By bisection.
+  // Force found by bisection.
   double force_n(double way) const {
     double inner = -30.0, outer = fold_;
     for (int i = 0; i < 80; ++i) {

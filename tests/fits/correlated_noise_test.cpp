@@ -42,7 +42,7 @@ Line fitted(const std::vector<double>& coefficients, std::size_t count, unsigned
   return line;
 }
 
-// In the mean of many short records.
+// Noise in the mean of many short records.
 TEST(CorrelatedNoise, IsFoundAsItWasMadeInSpiteOfTheFit) {
   double first = 0.0;
   constexpr int kRecords = 40;

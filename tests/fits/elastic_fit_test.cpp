@@ -97,7 +97,7 @@ bool has(const ElasticFit& fit, Doubt doubt) {
   return std::any_of(fit.doubts.begin(), fit.doubts.end(), [&](const Found& found) { return found.doubt == doubt; });
 }
 
-// From a start 0.3 um off, without noise.
+// Fit from a start 0.3 um off, without noise.
 TEST(ElasticFit, FindsTheModulusOfACurveOfTheSameLaw) {
   for (const ShapeRow& row : kShapes) {
     if (row.is_adhesive) continue;
@@ -273,7 +273,7 @@ TEST(ElasticFit, OfTheSameShapeDoesNotLeaveTheCurve) {
   }
 }
 
-// Each row's limit and side are its own, and its place that of the doubt.
+// Each row has its own limit and side, in the order of the doubts.
 TEST(ElasticFit, HasItsDoubtsInOneTable) {
   for (std::size_t i = 0; i < kDoubts.size(); ++i) {
     EXPECT_EQ(kDoubts[i].doubt, static_cast<Doubt>(i));
@@ -350,7 +350,7 @@ TEST(ElasticFit, HasTheShareOfEachError) {
   EXPECT_TRUE(fitted(Curves(8).approach(tip, 40.0, Noise::None), setup_of(tip)).systematic.empty());
 }
 
-// Neither with a tilt that is fitted nor with one that is not.
+// Both with a fitted tilt and without.
 TEST(ElasticFit, OfATiltedBaselineAloneIsNotTrusted) {
   for (const double tilt_n_per_m : {-1e-3, -5e-4, 5e-4, 1e-3}) {
     for (const unsigned seed : {20U, 21U, 22U}) {

@@ -90,7 +90,7 @@ TEST(Gram, LeavesOutTheUnknownThatIsHeld) {
   EXPECT_NEAR(squares, curve.product(0, 0, kNoises[1]), 1e-10);
 }
 
-// In a problem that is linear the step leads there exactly, and no other way of the others leads lower.
+// For a linear problem the step leads exactly to the minimum, and no change of the others leads lower.
 TEST(Gram, StepsToASumOfSquares) {
   const Curve curve(3);
   for (const std::vector<double>& noise : kNoises) {

@@ -26,7 +26,7 @@ TEST(Indenter, SphereIsSneddons) {
   EXPECT_NEAR(force_n(sphere, 5e-6), 1.19967864025773e-07, 1e-12 * 1e-7);
   EXPECT_NEAR(force_n(sphere, 1.5e-6) / 2.124976174e-08, 1.0, 4e-7) << "P03";
   EXPECT_NEAR(force_n(paraboloid, 5e-6) / force_n(sphere, 5e-6), 1.111408764, 1e-7) << "P05";
-  // the series below R/100 meets what is above it
+  // the series below R/100 joins the formula above it
   const double below = force_n(sphere, 0.00999999 * 5e-6), above = force_n(sphere, 0.01000001 * 5e-6);
   EXPECT_NEAR(above / below, std::pow(0.01000001 / 0.00999999, 1.5), 2e-8);
 }

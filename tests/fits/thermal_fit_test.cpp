@@ -134,7 +134,7 @@ TEST(CoverageOfAThermalFit, IsNinetyFivePercentAndTheAreaUnbiased) {
       const Spectrum spectrum = exact(truth, truth.resonance_hz - reach_hz, truth.resonance_hz + 2.0 * reach_hz, 2000);
       const ThermalFit fit = fitted(averaged(spectrum, averages, random));
       if (fit.area.low <= truth.area && truth.area <= fit.area.high) ++held;
-      // of the spring constant
+      // bias of the spring constant
       bias += (truth.area / fit.oscillator.area - 1.0) / spectra;
       deviation += fit.area_deviation / spectra;
     }

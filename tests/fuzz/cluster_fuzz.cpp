@@ -15,7 +15,7 @@ namespace {
 using namespace afm::exhibit;
 using namespace afm::cluster;
 
-// A message that is taken is the bytes that came, and what follows from it can be computed.
+// An accepted message is equal to the received bytes, and everything derived from it can be computed.
 template <class Message>
 bool take(std::span<const std::byte> datagram) {
   const auto message = decode<Message>(datagram);

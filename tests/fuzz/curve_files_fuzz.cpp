@@ -59,7 +59,7 @@ std::string with_zip_checksums(std::string bytes) {
 
 }  // namespace
 
-// Whatever the bytes, and whichever format they claim: a curve that can be analysed and written, or an error.
+// Any bytes in any format: a curve that can be analysed and written, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   std::string text(reinterpret_cast<const char*>(bytes), size);
   if (size > 12 && std::string_view(text).substr(8, 4) == "ARDF") text = with_checksums(std::move(text));

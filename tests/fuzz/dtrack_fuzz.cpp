@@ -5,7 +5,7 @@
 #include "fuzz/accepted.h"
 #include "input/dtrack.h"
 
-// Whatever comes by UDP: a frame of bodies that are somewhere, or nothing.
+// Any bytes received by UDP: a frame of bodies with places, or nothing.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace afm::input;
   const auto frame = parse_dtrack({reinterpret_cast<const char*>(bytes), size});

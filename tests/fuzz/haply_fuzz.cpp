@@ -8,7 +8,7 @@
 #include "devices/haply_message.h"
 #include "fuzz/accepted.h"
 
-// Whatever a service sends: a device with a place that is a number, to which a force can be sent, or nothing.
+// Any message of a service: a device with a finite place, to which a force can be sent, or nothing.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   using namespace afm::haptics;
   const std::string_view message(reinterpret_cast<const char*>(bytes), size);

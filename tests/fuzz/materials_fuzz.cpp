@@ -4,7 +4,7 @@
 #include "physics/contact.h"
 #include "scene/samples/material_library.h"
 
-// Whatever the bytes: materials that the closed forms accept, or an error. They throw on what is unphysical.
+// Any bytes: materials that the closed forms accept, or an error. The closed forms throw on unphysical ones.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const afm::fuzz::MemoryFile file(bytes, size);
   const auto library = afm::scene::load_materials(file.path());

@@ -12,7 +12,7 @@
 
 namespace {
 
-// Their answers take seconds for the numbers that a fuzzer likes best. An escape may hide a verb's name.
+// Answers take seconds for a fuzzer's favourite numbers. An escape may hide a verb's name.
 bool is_long_work(std::string_view line) {
   constexpr std::array<std::string_view, 5> kLong{"scan", "curve", "thermal", "save", "u00"};
   return std::any_of(kLong.begin(), kLong.end(),

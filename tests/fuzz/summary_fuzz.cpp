@@ -7,7 +7,7 @@
 #include "fuzz/accepted.h"
 #include "fuzz/memory_file.h"
 
-// Whatever the bytes of a demo's summary: events of materials, all of them numbers, or an error.
+// Any bytes as a demo's summary: events of materials, all of them numbers, or an error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const afm::fuzz::MemoryFile file(bytes, size);
   const auto measured = afm::curves::load_measured_events(file.path());

@@ -159,7 +159,7 @@ TEST_F(DeviceRegistry, LooksForEveryKindAndNamesItByItsWord) {
   EXPECT_EQ(find_device_kind("falcon"), nullptr);
 }
 
-// The process cannot go on beside a thread that is caught in a vendor's library.
+// The process cannot continue with a thread that is caught in a vendor's library.
 TEST_F(DeviceRegistry, EndsTheProcessWhereADriverDoesNotComeBack) {
   constexpr std::chrono::milliseconds kPatience(200);
   GTEST_FLAG_SET(death_test_style, "threadsafe");

@@ -26,7 +26,7 @@ const WorkspaceStop kStop(glm::dvec3(-0.080, -0.040, -0.035), glm::dvec3(0.080, 
 
 ForceLimiter stage() { return {kCapN, kSlewNPerS, kStop}; }
 
-// In the middle of the workspace, at rest, armed.
+// Request in the middle of the workspace, at rest, armed.
 OutputRequest request(const glm::dvec3& law_force_n) {
   return {.law_force_n = law_force_n, .arm_gain = 1.0, .slew_n_per_s = kSlewNPerS, .elapsed_s = kPeriodS};
 }
@@ -109,7 +109,7 @@ TEST(ForceLimiter, CutsToZeroAtOnceForWhatIsNoNumberAndForAHandThatFlies) {
   }
 }
 
-// A random number generator that costs next to nothing (Marsaglia 2003, xorshift).
+// A cheap random number generator (Marsaglia 2003, xorshift).
 class Random {
  public:
   std::uint64_t bits() {

@@ -23,7 +23,7 @@ using afm::core::ErrorCategory;
 using afm::core::MonotonicClock;
 using testing::HasSubstr;
 
-// What was asked of the motors; written by SDL's thread.
+// Commands to the motors; written by SDL's thread.
 std::atomic<int> heaviest{0}, lightest{0}, rumbles{0};
 int SDLCALL take_rumble(void* /*user*/, Uint16 heavy, Uint16 light) {
   heaviest = std::max<int>(heaviest, heavy);
@@ -32,7 +32,7 @@ int SDLCALL take_rumble(void* /*user*/, Uint16 heavy, Uint16 light) {
   return 0;
 }
 
-// What was asked of the force-feedback effect.
+// Commands to the force-feedback effect.
 std::atomic<int> level{0}, comes_from_x{0}, comes_from_y{0}, stops{0};
 int SDLCALL is_haptic(SDL_Joystick*) { return 1; }
 SDL_Haptic* SDLCALL open_haptic(SDL_Joystick* joystick) { return reinterpret_cast<SDL_Haptic*>(joystick); }
@@ -145,7 +145,7 @@ TEST_F(GamepadDeviceTest, MovesTheHandUpAndSidewaysAtABoundedSpeed) {
   const double seconds = 1e-9 * static_cast<double>(clock.now_ns() - began_ns);
   EXPECT_LT(start.y - hand.position_m.y, 0.1 * seconds + 0.002);  // 10 cm/s at most
 
-  // at the end of its reach it stays, and it comes back
+  // at the end of its range it stays, and it can move back
   push(SDL_CONTROLLER_AXIS_LEFTY, 0.0);
   push(SDL_CONTROLLER_AXIS_RIGHTX, 0.0);
   push(SDL_CONTROLLER_AXIS_LEFTY, -1.0);

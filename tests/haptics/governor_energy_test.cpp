@@ -6,7 +6,7 @@
 #include "governor_bench.h"
 #include "haptics/safety.h"
 
-// Whose energy the governor books: the hand's, and that of one visit to the sample.
+// Energies booked by the governor: the hand's, and that of one visit to the sample.
 namespace governor_energy_test {
 
 using namespace afm::haptics;

@@ -14,7 +14,7 @@ using namespace afm::haptics;
 using afm::scene::FaultCode;
 using afm::scene::ServoState;
 
-// The model requests another force after the pause; the output changes to it gradually.
+// The model requests another force after the pause; the output changes gradually to it.
 TEST_F(Governor, GlidesAfterALateTick) {
   hold(1.0);
   input_.wanted_force_n = glm::dvec3(0.0, -2.0, 0.0);

@@ -123,7 +123,7 @@ TEST(MaterialEdit, ThatCannotBeFeltIsRefusedAndChangesNothing) {
   bench.edit(kMica, nonsense);
   bench.run(0.01);
   EXPECT_EQ(bench.state().acknowledged.refused_edit, 2U);
-  // an adhesion too weak to hold what was pulled in: valid numbers, but no law
+  // an adhesion too weak to hold a tip that was pulled in: valid numbers without a law
   nonsense = mica_on_a_lever_of(0.1);
   nonsense.contact.mean_surface_energy.si = 1e-6;
   bench.edit(kMica, nonsense);
@@ -141,7 +141,7 @@ SharedModel measured_model() {
   return model;
 }
 
-// The same curve, tearing off at 10 nm: that of another pixel.
+// Same curve with the tear-off at 10 nm, as of another pixel.
 SharedMeasuredCurve other_curve(const SharedModel& model) {
   SharedMeasuredCurve curve = model.curves[0];
   for (auto& point : curve.retract) {
@@ -199,7 +199,7 @@ TEST(MaterialEdit, OfAThousandInAStormTheNewestIsFelt) {
   EXPECT_EQ(bench.state().active.edit_revision, 1000U);
   EXPECT_NEAR(bench.state().active.scale.hand_m_per_m, 0.050 / pull_off_m(mica_on_a_lever_of(0.25)), 1.0);
 
-  // and again with a tip that is free all the time, where every edit is taken as it comes
+  // again with a tip that is always free, where every edit is accepted at once
   for (int i = 1; i <= 1000; ++i) {
     bench.edit(kMica, mica_on_a_lever_of(0.25 - 0.0002 * i));
     bench.tick();
@@ -222,7 +222,7 @@ TEST(MaterialEdit, IsFeltByTheSuccessorOfAServoThatDied) {
   EXPECT_EQ(bench.state().active.edit_revision, 1U);
 }
 
-// The three threads as they are in the program: one draws and edits, one builds, one ticks.
+// Three threads, as in the program: one draws and edits, one builds, one ticks.
 TEST(MaterialEdit, CrossesBetweenThreads) {
   ServoBench bench;
   std::atomic<bool> done{false};

@@ -68,7 +68,7 @@ TEST(MotorThermalModel, HeatsLikeOneThermalMass) {
   MotorThermalModel motors(kRatingN, kCapN);
   for (int i = 0; i < 30'000; ++i) motors.update(0.5 * kRatingN, kPeriodS, 0.0);
   EXPECT_NEAR(motors.heat(), 0.25 * (1.0 - std::exp(-1.0)), 1e-9);
-  // one long tick heats like many short ones
+  // one long tick heats as much as many short ones
   MotorThermalModel other(kRatingN, kCapN);
   other.update(0.5 * kRatingN, 30.0, 0.0);
   EXPECT_NEAR(other.heat(), motors.heat(), 1e-9);

@@ -59,7 +59,7 @@ TEST(ParticleScale, OfAWideSetFitsTheWorkspaceAndKeepsTheLeverFromRunningRound) 
   EXPECT_LT(bend_m, 0.34 * touch_m(particles));
 }
 
-// A tip that holds gold pulls by more than what moves it: the pull is what the device can bear.
+// A tip that holds gold pulls harder than the force that moves it: the device's limit applies to the pull.
 TEST(ParticleScale, KeepsThePullOfATipThatSticksWithinTheDevice) {
   SharedParticles particles = particles_at({{0.0, 0.0}});
   const ParticleScale plain = haptics::particle_scale(particles, kOmni).value();
@@ -190,7 +190,7 @@ TEST_P(AtRate, N20SlidesByTheBalance) {
   EXPECT_GT(felt.push().other_threshold_n, 10.0 * felt.push().threshold_n);  // Amontons, 14-fold
 }
 
-// Loss beside the tip, and its event.
+// Loss of a sphere beside the tip, and its event.
 TEST_P(AtRate, N32LosesASphereBesideThePath) {
   const double offsets[] = {0.2, 0.05}, travels[] = {2.29243167, 3.688253867};
   for (int i = 0; i < 2; ++i) {
@@ -229,7 +229,7 @@ TEST_P(AtRate, N75AClosedPathTakesWork) {
     drag(felt, {0.0, 1e-7});
     expect_relative(felt.push().given_j, ratio == 1.0 ? 5.835736736e-17 : 2.979467092e-17, 1e-5);
     expect_relative(felt.pages()[0].poses[0].x_m - rho, ratio == 1.0 ? 1.945245579e-08 : 1.972622789e-08, 1e-5);
-    // a hand that goes back has lost nothing
+    // a hand that returns has lost nothing
     for (const ParticlePush::Event& event : events_) EXPECT_NE(event.kind, EventKind::ParticleLost);
   }
 }

@@ -100,7 +100,7 @@ TEST(PassivityObserver, BooksAllDirectionsOfTheForce) {
   EXPECT_NEAR(observer.excess_j(), -glm::dot(force_n, moved_m), 1e-12);
 }
 
-// What a broken program could do to a force on its way from the law to the governor.
+// Errors by which a broken program could change a force between law and governor.
 enum class Injected { Nothing, HalfMore, FiveMillisecondsLate };
 
 // Law, scale and governor in a loop that a test moves by its hand's height; without the servo around them.
@@ -304,7 +304,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, PassivityObserverOfDynamics,
                                          AnyLaw{"LennardJones", Law::LennardJones}),
                          [](const auto& test) { return test.param.name; });
 
-// Where the tip is when the program breaks, and where the hand is going: ways on which the fault gives energy at once.
+// Place of the tip when the fault occurs, and direction of the hand: paths on which the fault gives energy at once.
 struct Fault {
   std::string name;
   Injected injected;

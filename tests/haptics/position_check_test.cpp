@@ -14,7 +14,7 @@ class PlausiblePlaces : public testing::Test {
   DeviceSample at(double height_m, const glm::dvec3& force_n = kPull, std::int64_t elapsed_ns = kTickNs) {
     return check.checked({.position_m = {0.0, height_m, 0.0}}, elapsed_ns, force_n);
   }
-  // How many ticks pass until the device counts as failed; -1: not within 100.
+  // Number of ticks until the device counts as failed; -1: more than 100.
   template <class Height>
   int ticks_until_unhealthy(Height&& height_m, double believed_m) {
     for (int tick = 1; tick <= 100; ++tick) {
@@ -64,7 +64,7 @@ TEST_F(PlausiblePlaces, OneWildPlaceIsPassedOver) {
 TEST_F(PlausiblePlaces, AJumpIsNotBelievedAndEndsTheForce) {
   at(0.0);
   EXPECT_EQ(ticks_until_unhealthy([](int) { return 0.045; }, 0.0), 4);
-  // it restarts at the device's current position
+  // the check restarts at the device's current position
   EXPECT_EQ(at(0.045).position_m.y, 0.045);
   EXPECT_TRUE(at(0.0451).healthy);
 }

@@ -67,7 +67,7 @@ class RecordedContact : public testing::TestWithParam<int> {
   }
 };
 
-// Else the force could never be turned on.
+// Otherwise the force could never be turned on.
 TEST_P(RecordedContact, IsFaintWhereTheForceIsTurnedOn) {
   const Felt sample = felt(curve());
   const double release_m = sample.model->scaling().release_height_m();
@@ -77,7 +77,7 @@ TEST_P(RecordedContact, IsFaintWhereTheForceIsTurnedOn) {
   }
 }
 
-// At 50 mm/s, turning at several depths and heights, one of them between snap-in and pull-off.
+// Motion at 50 mm/s with turns at several depths and heights, one of them between snap-in and pull-off.
 TEST_P(RecordedContact, GivesAHandNoMoreThanItStores) {
   const Felt sample = felt(curve());
   ContactModel& model = *sample.model;

@@ -21,7 +21,7 @@ using afm::scene::SharedSegment;
 using afm::scene::TipSample;
 using testing::HasSubstr;
 
-// Passes everything through and remembers what the hand did.
+// Passes everything on and stores the actions of the hand.
 class Recorder final : public HapticDevice {
  public:
   const DeviceSpec& spec() const noexcept override { return hand_.spec(); }

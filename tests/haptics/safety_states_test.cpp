@@ -187,7 +187,7 @@ TEST(SafetyStates, LeaveArmingOnlyWithTheWholeGainAndFadingOnlyWithoutForce) {
   }
 }
 
-// Whatever came before, without a press of the button in a tick where nothing is wrong there is no way to a force.
+// Whatever happened before, there is no force without a press of the button in a tick without a fault.
 TEST(SafetyStates, GiveNoForceWithoutAPress) {
   for (const SafetyState& before : all_states()) {
     if (before.armed()) continue;

@@ -272,7 +272,7 @@ TEST_F(Governor, GivesForceOnlyWhileTurnOnIsHeldWithADeadMan) {
   EXPECT_EQ(governor_.state(), ServoState::Disarmed);
   EXPECT_EQ(governor_.fault(), FaultCode::DeadManReleased);
 
-  // in the middle of the stroke nothing arms
+  // in the middle of the stroke nothing can arm it
   input_.turn_on = true;
   steps(100);
   EXPECT_EQ(governor_.state(), ServoState::Disarmed);

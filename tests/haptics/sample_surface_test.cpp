@@ -209,7 +209,7 @@ class FeltTopography : public testing::Test {
 TEST_F(FeltTopography, StaysWithinItsSlopeAndItsCurvature) {
   EXPECT_LE(felt_.steepest_slope(), SampleSurface::kSteepestSlope);
   EXPECT_LE(felt_.largest_curvature_per_m(), kGentle);
-  // and is smoothed no further than that asks for
+  // and is smoothed no more than necessary
   EXPECT_GT(std::max(felt_.steepest_slope() / SampleSurface::kSteepestSlope, felt_.largest_curvature_per_m() / kGentle),
             0.75);
 }

@@ -104,7 +104,7 @@ TEST(ScanGuide, GivesNoMoreEnergyThanItsTankWhateverThePathAndTheHandDo) {
     for (std::int64_t tick = 0; tick < 60'000; ++tick) {
       const double t = kTickS * static_cast<double>(tick);
       const glm::dvec3 path_m(0.03 * std::sin(path_m_per_s / 0.03 * t), 0.0, 0.0);
-      // a hand that takes as much as it can: it goes with the pull and holds against none
+      // a hand that takes as much energy as it can: it follows the pull and resists nothing
       const glm::dvec3 moved_m = 0.0008 * force_n;
       given_j += glm::dot(force_n, moved_m);
       hand_m += moved_m;
@@ -138,7 +138,7 @@ TEST(ScanGuide, LetsGoWithTurnOnAndOfAPathThatEndsJumpsOrLeavesTheHandsPlace) {
     EXPECT_FALSE(pull.leads) << end;
     EXPECT_EQ(pull.force_n, glm::dvec3(0.0)) << end;
     EXPECT_EQ(pull.stored_j, 0.0) << end;
-    // it takes hold again by itself only where a person let go of it
+    // it takes hold again by itself only if a person let go of it
     pull = guide.step(input_of(hand_m, target_m, ++tick));
     EXPECT_EQ(pull.leads, end < 2) << end;
     input = input_of(hand_m, target_m, ++tick);
@@ -207,7 +207,7 @@ TEST(ScanOfTheHand, LeadsOnlyWithTurnOnHeldAndLetsGoWithIt) {
   EXPECT_EQ(bench.hand_force_n(), 0.0);
 }
 
-// Its aim is, frame by frame, where it is: so the live window plays a hand that goes along.
+// Each frame aims the hand at the hand's own place, as the live window does for a passive hand.
 TEST(ScanOfTheHand, TakesARelaxedSimulatedHandDownToTheTipAndAlong) {
   ScanBench bench;
   bench.arm_and_hold();

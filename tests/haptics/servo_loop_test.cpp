@@ -52,7 +52,7 @@ TEST(ServoLoop, PullsTheHandDownAtSnapInAndLetsItFlyAtPullOff) {
   bench.run(1.0);
   EXPECT_NEAR(bench.state().hand.position_m[1], 0.030 * 200.0 / 240.0, 1e-5);
 
-  // at pull-off the grip is stretched by 2 N / 200 N/m, and 60 ms later the hand is most of that higher
+  // at pull-off the grip is stretched by 2 N / 200 N/m, and 60 ms later the hand has risen by most of that
   bench.move(0.072, 3.0);
   ASSERT_EQ(bench.events.size(), 2U);
   const auto released = std::find_if(bench.samples.begin(), bench.samples.end(), [&](const TipSample& sample) {
@@ -336,7 +336,7 @@ TEST(ServoLoop, GoesOnInASegmentWhereItsPredecessorDied) {
   EXPECT_EQ(bench.hand_force_n(), 0.0);
 }
 
-// Whatever is felt fits below the limit: the scale is another one, nothing is cut off.
+// All felt forces fit below the limit: the scale changes, and nothing is cut off.
 TEST(ServoLoop, GivesNoMoreThanAnOperatorAllows) {
   for (const double most_n : {0.1, 1.0, 1.7}) {
     ServoBench bench(paper_model(), 1000.0, {}, most_n);
@@ -388,7 +388,7 @@ TEST(ServoLoop, RefusesARateThatNoServoCanKeep) {
 
 TEST(ServoLoop, RefusesAMaterialWithoutAForceLaw) {
   SharedModel model = paper_model();
-  // an adhesion too weak to hold what the van der Waals force pulls in
+  // an adhesion too weak to hold the tip that the van der Waals force pulls in
   model.materials[kGold].contact.mean_surface_energy.si = 1e-6;
   auto segment = SharedSegment::create(model, 0);
   SimulatedDevice device;

@@ -130,7 +130,7 @@ TEST(ServoAmongParticles, FeelsAndMovesNothingWithoutForce) {
   EXPECT_EQ(bench.hand_force_n(), 0.0);
 }
 
-// A hand with a grip of 200 N/m that aims 0.4 mm beside the middle pushes the particle by most of its width.
+// A hand with a grip of 200 N/m that aims 0.4 mm off the middle pushes the particle by most of its width.
 TEST(ServoAmongParticles, AHandThatIsALittleOffTheLinePushes) {
   PushingBench bench;
   bench.put_down();
@@ -199,7 +199,7 @@ TEST(ServoAmongParticles, TakesPushAfterPushBackBitForBit) {
   bench.order(bench.taken_back);
   EXPECT_EQ(bench.count(EventKind::PushTakenBack), 2U) << "there is none";
 
-  // what follows is what follows from these places
+  // the future depends only on these places
   bench.push_to(-0.012);
   EXPECT_GT(bench.pose(0).x_m, start.x_m + 5e-9);
   EXPECT_EQ(bench.state().fault, scene::FaultCode::None);

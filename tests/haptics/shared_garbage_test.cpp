@@ -13,7 +13,7 @@
 #include "haptics/safety.h"
 #include "servo_bench.h"
 
-// What a renderer that has lost its mind could write, while the hand is held.
+// Possible writes of a renderer out of control, while the hand is held.
 namespace shared_garbage_test {
 
 using namespace afm::scene;
@@ -35,7 +35,7 @@ class Garbage {
     return block;
   }
 
-  // One bit of a block that was good.
+  // Flips one bit of a good block.
   template <class Block>
   Block flipped(Block block) {
     auto* bytes = reinterpret_cast<unsigned char*>(&block);
@@ -100,7 +100,7 @@ TEST(SharedGarbage, IsRefusedAndCountedWhileTheForceStaysWithinItsLimits) {
   std::array<double, 3> before_n = bench.state().hand.force_n;
   testing::internal::CaptureStderr();
   for (int round = 0; round < kRounds; ++round) {
-    // the hand is taken back to the sample now and then, or all would happen without force
+    // the hand returns to the sample now and then; otherwise everything would happen without force
     if (round % 2500 == 2499) bench.hold_attached(kMica);
     before_n = bench.state().hand.force_n;
     write_all(bench, garbage);

@@ -136,7 +136,7 @@ TEST_P(Topography, TakesAndGivesNoEnergyOnClosedPathsOfOneBranch) {
       moved_j += std::abs(part_j);
       before = here;
     }
-    // of the trapezoidal rule over a path of some 20 micrometres a step
+    // error of the trapezoidal rule over a path with steps of some 20 micrometres
     ASSERT_LE(std::abs(work_j), 1e-4 * moved_j + 1e-9);
   }
 }
@@ -231,7 +231,7 @@ std::array<double, 16> turned(const glm::dmat4& turn) {
 
 class TurnedSample : public testing::Test {
  protected:
-  // Presses the tip on the sample, the room turned by `turn`, and returns what the servo says.
+  // Presses the tip on the sample, with the room turned by `turn`, and returns the servo's state.
   static afm::scene::TipState press(const glm::dmat4& turn) {
     ServoBench bench(rough_model());
     afm::scene::SceneTransforms transforms;

@@ -17,7 +17,7 @@ std::string state_at(double x_m) {
       R"({{"inverse3":[{{"device_id":"1","state":{{"cursor_position":{{"x":{},"y":-0.12,"z":0.15}}}}}}]}})", x_m);
 }
 
-// A connection at which `waiting` lie; a take is late once it has `bearable` of them.
+// A connection with `waiting` messages; a take is late once it has received `bearable` of them.
 struct Connection {
   std::queue<std::string> waiting;
   int bearable = 3;
@@ -72,7 +72,7 @@ TEST(WaitingStates, GiveNoPlaceWhileMoreWaitBehindIt) {
   EXPECT_FALSE(connection.take(states).newest) << "given once";
 }
 
-// A service that waits for its force sends nothing more: a thread that was slow must see that nothing is behind.
+// A service that waits for a force sends nothing more: a slow thread must notice that no message follows.
 TEST(WaitingStates, GiveAStateThatCameLateAndAlone) {
   WaitingStates states;
   Connection connection{.waiting = {}, .bearable = 1};

@@ -17,7 +17,7 @@ using ::testing::SizeIs;
 
 constexpr std::int64_t kBgraSrgb = 50, kRgbaSrgb = 43;
 
-// What the eye's image holds, in the order of the runtime's format.
+// Contents of the eye's image in the order of the runtime's format.
 std::vector<std::uint8_t> in_order_of(std::int64_t format, const render::Image& image) {
   std::vector<std::uint8_t> bytes = image.rgba;
   for (std::size_t i = 0; format == kBgraSrgb && i < bytes.size(); i += 4) std::swap(bytes[i], bytes[i + 2]);
@@ -158,7 +158,7 @@ TEST_F(HeadsetFrames, AFrameThatNobodyDrawsIsEndedWithoutALayer) {
   EXPECT_TRUE(draw_next());
 }
 
-// The floor of the room is the runtime's, however it has it: eyes 1.6 m above it, and the room's 1.6 m lower.
+// The room's floor is the runtime's, in any reference space: with eyes 1.6 m above it, the room is 1.6 m lower.
 TEST_F(HeadsetFrames, TakeTheFloorFromTheRuntime) {
   struct Case {
     bool local_floor, stage;

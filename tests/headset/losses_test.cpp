@@ -138,7 +138,7 @@ TEST_F(HeadsetLosses, ARuntimeThatIsGoneIsSaidOnceAndFoundWhenItIsBack) {
   EXPECT_TRUE(draw_next());
 }
 
-// The heartbeat goes on for as long as a hand may be held without a picture, and not longer.
+// The heartbeat continues for the time that a hand may be held without a picture, and no longer.
 TEST_F(HeadsetLosses, AFrozenRuntimeIsWaitedForWithBeatsFor250MsAndThenWithout) {
   connect();
   ASSERT_TRUE(draw_next());

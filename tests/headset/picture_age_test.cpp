@@ -9,7 +9,7 @@ namespace picture_age_test {
 
 constexpr std::int64_t kMs = 1'000'000;
 
-// Pictures that come regularly, the last of them at the end.
+// Shows pictures at regular intervals, the last one at the end.
 std::int64_t show(PictureAge& age, int pictures, std::int64_t every_ms, std::int64_t from_ms = 0) {
   for (int i = 0; i < pictures; ++i) age.shown((from_ms + i * every_ms) * kMs);
   return from_ms + (pictures - 1) * every_ms;

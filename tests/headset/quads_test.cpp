@@ -17,7 +17,7 @@ using ::testing::SizeIs;
 
 class HeadsetQuads : public HeadsetTest {
  protected:
-  // Placed beside the objects in front of the wall, so that nothing hides them.
+  // Quads beside the objects in front of the wall, so that nothing hides them.
   HeadsetQuads() {
     frame_.panels.force.placement.right_m.x = 0.70;
     frame_.panels.data.placement.lower_left_m.x = 0.80;
@@ -26,7 +26,7 @@ class HeadsetQuads : public HeadsetTest {
 
   const std::vector<stand_in::SubmittedQuad>& quads() { return log().frames.back().quads; }
 
-  // Where the runtime shows the quad and how large, in the room.
+  // Expects the runtime to show the quad at this place and size in the room.
   void expect_at(const stand_in::SubmittedQuad& quad, const render::PanelPlacement& placement) {
     const auto& [x, y, z] = quad.pose.position;
     const auto& q = quad.pose.orientation;
@@ -43,7 +43,7 @@ class HeadsetQuads : public HeadsetTest {
     EXPECT_EQ(quad.flags, XrCompositionLayerFlags{XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT});
   }
 
-  // What the texture of a panel is to hold: its picture on a wall that it fills, where the plate is opaque.
+  // Expects a panel's texture to hold its picture on a wall that it fills, where the plate is opaque.
   void expect_texture_of(const stand_in::SubmittedQuad& quad, const render::PanelPlacement& placement,
                          double opaque_share = 0.9) {
     render::Renderer wall = must(render::Renderer::create(*context_, scene_.scene,
@@ -129,7 +129,7 @@ TEST_F(HeadsetQuads, HoldTheTextureOfEachLabel) {
   connect();
   ASSERT_TRUE(draw_next());
   ASSERT_THAT(quads(), SizeIs(5));
-  // their corners are round
+  // the corners of the labels are round
   for (const std::size_t i : {0U, 1U}) expect_texture_of(quads()[2 + i], frame_.labels[i].placement, 0.7);
   expect_texture_of(quads()[4], frame_.panels.banner.placement);
 }

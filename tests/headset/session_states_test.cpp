@@ -51,7 +51,7 @@ TEST(SessionStates, ASystemMenuTakesTheControllersButNotThePicture) {
   EXPECT_FALSE(states.focused());
 }
 
-// By every way, from every phase.
+// Every way to the end, from every phase.
 TEST(SessionStates, AreOverOnceAndForAllWhenTheSessionIs) {
   for (const SessionEvent end : {BecameExiting, BecameLossPending, WasLost}) {
     for (const auto& before : {std::vector<SessionEvent>{}, {BecameIdle}, kPutOn}) {
@@ -66,7 +66,7 @@ TEST(SessionStates, AreOverOnceAndForAllWhenTheSessionIs) {
   }
 }
 
-// What runtimes have sent although the specification has no such change.
+// Events that runtimes have sent although the specification has no such change.
 TEST(SessionStates, NeitherBeginTwiceNorEndWhatDoesNotRun) {
   SessionStates states;
   EXPECT_THAT(duties(states, {BecameIdle, BecameStopping, BecameStopping}), ElementsAre());

@@ -78,7 +78,7 @@ class HeadsetSoak : public HeadsetTest {
     runtime.script.blocked = false;
   }
 
-  // Frames as they come, drawn or not.
+  // Runs this many turns, with frames drawn or not.
   void go_on(int turns) {
     for (int i = 0; i < turns; ++i) {
       if (turn() != Headset::Turn::Frame) continue;
@@ -103,7 +103,7 @@ class HeadsetSoak : public HeadsetTest {
     return false;
   }
 
-  // Returns the memory in use in either half, on average: a session has more of it with its layers than before them.
+  // Mean memory in use in either half: a session uses more of it with its layers than before them.
   std::array<double, 2> soak(int actions) {
     stand_in::stand_in().keeps_frames = false;
     connect();
@@ -136,7 +136,7 @@ class HeadsetSoak : public HeadsetTest {
 
 TEST_F(HeadsetSoak, TheRuntimeDoesWhatItLikes) { soak(actions()); }
 
-// Without Vulkan's layers, which keep something of every image that there was.
+// Runs without Vulkan's layers, which keep something of every former image.
 TEST_F(HeadsetSoak, MemoryStaysWhateverTheRuntimeDoes) {
   validation_ = render::Validation::Off;
   const auto [first_bytes, second_bytes] = soak(actions());

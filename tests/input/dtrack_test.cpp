@@ -88,7 +88,7 @@ TEST(Dtrack, ReadsSixtyFourBodiesAndLeavesOutWhatHasNoNumber) {
   EXPECT_EQ(parse_dtrack(packet(67))->faults.count, 3U);
 }
 
-// A datagram of the research, as it was sent.
+// A datagram recorded for the research.
 std::string datagram(const std::string& name) {
   std::ifstream file(support::source("tests/fuzz/corpus/dtrack/" + name), std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -136,7 +136,7 @@ struct BadBody {
   std::string_view reason;
 };
 
-// Each beside a good head in its line and a good Flystick in the next one.
+// Bad bodies, each with a good head in the same line and a good Flystick in the next one.
 TEST(Dtrack, LeavesOutOnlyTheBodyThatCannotBeRead) {
   const std::string matrix(kIdentity), pose = "[1 2 3 0 0 0]";
   for (const BadBody& bad : std::vector<BadBody>{

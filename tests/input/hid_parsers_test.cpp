@@ -256,7 +256,7 @@ TEST(MappedWand, RefusesShortAndForeignReports) {
   EXPECT_FALSE(driver->read({}));
 }
 
-// ---- which device is what ----
+// ---- recognition of devices ----
 
 TEST(Catalog, KnowsWandsAndWhatOnlyLooksLikeOne) {
   EXPECT_TRUE(identify({0x046d, 0xc626, 1, 8}, {})->make);

@@ -20,7 +20,7 @@ using testing::Not;
 constexpr const char* kCompact = "256F:0000C635";
 constexpr const char* kCadMouse = "256F:0000C650";
 
-// With a computer into which a device can be plugged.
+// Tests with a computer into which a device can be plugged.
 class HidSourceTest : public ::testing::Test {
  protected:
   void plug(const std::string& ids, const std::string& name) { port_.plug(ids, name); }
@@ -119,7 +119,7 @@ constexpr const char* kReceiver = "256F:0000C652";
 constexpr const char* kDualSense = "054C:00000CE6";
 constexpr std::array<std::uint8_t, 7> kPush{1, 0x5e, 0x01, 0, 0, 0, 0}, kRest{1, 0, 0, 0, 0, 0, 0};
 
-// 3Dconnexion's receiver has five interfaces of one usage; the cap speaks on any of them.
+// 3Dconnexion's receiver has five interfaces of one usage; the cap sends on any of them.
 TEST_F(HidSourceTest, FollowsTheInterfaceOfAReceiverThatSpeaks) {
   for (std::size_t speaking = 0; speaking < 5; ++speaking) {
     for (int i = 0; i < 5; ++i) plug(kReceiver, "3Dconnexion Universal Receiver");
@@ -143,7 +143,7 @@ TEST_F(HidSourceTest, FollowsTheWandThatIsUsedOnceTheOtherRests) {
   poll_until(**source, [](const WandState& wand) { return wand.connected; });
   ASSERT_TRUE(port_.send(0, std::array<std::uint8_t, 3>{3, 1, 0}));
   poll_until(**source, [](const WandState& wand) { return wand.pressed(WandButton::Select); });
-  // while the first has a button down, the second does not take it away
+  // while a button of the first is down, the second does not take over
   ASSERT_TRUE(port_.send(1, kPush));
   for (int i = 0; i < 200; ++i) {
     clock_.now += 10'000'000;
@@ -222,7 +222,7 @@ TEST_F(HidSourceTest, KeepsToTheWandThatIsNamed) {
   }
 }
 
-// A pedal that only stops the force lies beside a wand, even one that is named.
+// A pedal that only stops the force can be used beside a wand, even a named one.
 TEST_F(HidSourceTest, StopsByAPedalBesideTheWand) {
   HidMapping pedal{.name = "Pedal", .vendor = 0x1234, .product = 0xab, .axes = {}, .buttons = {}};
   pedal.buttons.push_back({.button = WandButton::Stop, .report = 3, .byte = 1, .bit = 0});

@@ -23,7 +23,7 @@ constexpr double kRadPerDegree = std::numbers::pi / 180.0;
 Report flat_with(const std::string& extension) {
   return from_hex("37 00 00 80 80 9a ff ff ff ff ff ff ff ff ff ff " + extension);
 }
-// What an awake MotionPlus, a Nunchuk, and a remote with nothing plugged in say that they are.
+// Identification of an active MotionPlus, a Nunchuk, and a remote with nothing plugged in.
 Report identifier(const std::string& bytes) {
   return from_hex("21 00 00 50 00 fa " + bytes + " 00 00 00 00 00 00 00 00 00 00");
 }
@@ -138,7 +138,7 @@ TEST(MotionPlus, RefusesShortReports) {
   }
 }
 
-// A quarter turn to the left in a second, which gravity by itself cannot show.
+// A quarter turn to the left in a second, which gravity alone cannot show.
 TEST(MotionPlus, PointsTheWandWhereItIsTurned) {
   HidWand wand(wiimote_driver(), HandPlace{});
   std::int64_t now_ns = 1'000'000'000;

@@ -65,7 +65,7 @@ TEST(Navigation, GrabbingAndComingBackLeavesTheSceneExactlyWhereItWas) {
     EXPECT_GT(difference(navigation.room_from_scene(), before), 0.01);
     navigation.update(start, kFrameS, false);
     EXPECT_LT(difference(navigation.room_from_scene(), before), kExactM);
-    // and let go somewhere else, so that the next begins from there
+    // released somewhere else, so that the next grab begins there
     wand.buttons = bit(WandButton::Grab);
     navigation.update(wand, kFrameS, false);
   }

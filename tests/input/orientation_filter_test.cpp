@@ -13,7 +13,7 @@ namespace orientation_filter_test {
 constexpr double kStepS = 0.005;
 constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
 
-// What an ideal sensor reads that is turned by `level_from_wand` and turns at `rate`, in its own frame.
+// Reading of an ideal sensor that is turned by `level_from_wand` and turns at `rate`, in its own frame.
 ImuSample reading(const glm::dquat& level_from_wand, const glm::dvec3& rate = glm::dvec3(0.0)) {
   return {.rate_rad_per_s = rate, .acceleration_g = glm::inverse(level_from_wand) * kUp};
 }

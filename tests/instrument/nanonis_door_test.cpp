@@ -211,7 +211,7 @@ TEST_F(NanonisDoorTest, ApproachesAndWithdraws) {
   EXPECT_EQ(NanonisReader(results_of("ZCtrl.OnOffGet")).read<std::uint32_t>(), 0U);
 }
 
-// What clients do for a force curve: feedback off, heights one by one, and the signal of the force
+// Calls of clients for a force curve: feedback off, heights one by one, and the signal of the force.
 TEST_F(NanonisDoorTest, TakesAForceCurveHeightByHeight) {
   const auto force_at = [this](float z_m) {
     results_of("ZCtrl.ZPosSet", NanonisWriter().add(z_m));

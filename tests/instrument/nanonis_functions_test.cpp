@@ -26,7 +26,7 @@ struct Call {
   std::size_t blank;         // number of zero bytes in place of the results of a refused call
 };
 
-// One after the other, on a level sample: later calls see what earlier ones have set.
+// Calls in order, on a level sample: later calls see settings of earlier ones.
 constexpr std::array kCalls{
     Call{"AutoApproach.Open", "", "", 0},
     Call{"AutoApproach.OnOffSet", "00 01", "", 0},
@@ -89,7 +89,7 @@ class NanonisFunctions : public testing::Test {
     EXPECT_TRUE(instrument_.change(settings));
   }
 
-  // What follows the header of the answer, whose name and size are checked.
+  // Answer after its header, whose name and size are checked.
   std::string body_of(std::string_view name, const std::string& arguments) {
     std::string header(name);
     header.resize(32, '\0');

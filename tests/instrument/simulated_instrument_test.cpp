@@ -316,7 +316,7 @@ TEST(SimulatedInstrument, RepeatsItselfForItsSeedAndNoOther) {
   EXPECT_EQ(reset.position().time_s, 0.0);
 }
 
-// A worn tip and other settings of the contact leave nothing for the next start
+// A reset removes a worn tip and other settings of the contact.
 TEST(SimulatedInstrument, IsAsNewAfterAResetWhateverItHadBefore) {
   const auto image = [](SimulatedInstrument& instrument) {
     instrument.approach(1e-6);

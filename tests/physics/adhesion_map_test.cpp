@@ -92,7 +92,7 @@ TEST(AdhesionMap, LoadTakesAContactFromItsRegimeToHertz) {
     EXPECT_NE(regime_of(tabor, 1.0), Regime::Hertz);
     EXPECT_EQ(regime_of(tabor, 1e5), Regime::Hertz);
   }
-  // the stiffest add 2 to any load, JKR the root of six of it
+  // the stiffest add 2 to any load, JKR the root of six times the load
   EXPECT_EQ(regime_of(0.001, 39.0), Regime::Rigid);
   EXPECT_EQ(regime_of(0.001, 42.0), Regime::Hertz);
   EXPECT_EQ(regime_of(100.0, 2500.0), Regime::Jkr);

@@ -75,7 +75,7 @@ TEST(BranchTable, GoesOnFarAwayAsThePowerThatItHasThere) {
   EXPECT_NEAR(table.force(1_m).si, 0.0, 1e-24);
 }
 
-// No force of the kind that a table holds goes on indefinitely: one that has not begun to fall falls as 1/distance.
+// A tabulated force cannot continue indefinitely: one that has not begun to fall falls as 1/distance.
 TEST(BranchTable, LetsAForceThatDoesNotFallWhereItEndsFallAsTheDistance) {
   const auto flat = [](double) { return -2e-9; };
   const auto level = [](double) { return 0.0; };

@@ -64,7 +64,7 @@ TEST(BeamShape, HasTheSlopeOfItsDifferences) {
   }
 }
 
-// E I w'' is the moment of the load, which falls from F L at the clamp to nothing at the end.
+// E I w'' is the moment of the load, which falls from F L at the clamp to zero at the end.
 TEST(BeamShape, CarriesTheMomentOfItsLoad) {
   const Force load = 1_nN;
   const double bending = 169e9 * 50e-6 * std::pow(2e-6, 3) / 12.0;
@@ -104,7 +104,7 @@ TEST(FlexuralModes, ShareAllOfTheThermalNoise) {
     virtual_deflection += virtual_thermal_share(mode);
   }
   EXPECT_NEAR(deflection, 1.0, 1e-8);
-  // its series converges as 1/n
+  // the series converges as 1/n
   EXPECT_NEAR(virtual_deflection, 4.0 / 3.0, 16.0 / (3.0 * std::pow(std::numbers::pi, 2) * 400.0) * 1.01);
 }
 

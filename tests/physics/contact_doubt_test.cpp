@@ -10,7 +10,7 @@
 #include "gel_curve.h"
 #include "physics/curve_analysis.h"
 
-// Gels of 0.3 to 100 kPa with what spoils the contact point: a tilt, waves of a laser, an approach without a baseline.
+// Gels of 0.3 to 100 kPa with typical disturbances of the contact point: tilt, laser waves, no baseline.
 namespace contact_doubt_test {
 
 using namespace afm::physics;

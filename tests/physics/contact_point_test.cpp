@@ -128,7 +128,7 @@ TEST(ContactPoint, DoesNotDependOnTheOrderOfThePoints) {
   }
 }
 
-// From a sample that gives way far more than the lever to one that hardly does.
+// Samples from one that yields far more than the lever to one that hardly yields.
 TEST(ContactPoint, OfAnyShareOfTheLeverIsFound) {
   for (const double softer : {0.01, 0.1, 1.0, 10.0, 100.0}) {
     std::vector<CurvePoint> points;

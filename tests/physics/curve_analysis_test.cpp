@@ -49,7 +49,7 @@ std::vector<CurvePoint> hertz(double coefficient, Stiffness lever, Length deepes
   return cycle;
 }
 
-// What an instrument adds: an unknown zero of the height, an offset and a drift of the force, and noise.
+// Points with an instrument's errors: an unknown zero of the height, an offset and a drift of the force, and noise.
 std::vector<CurvePoint> as_measured(std::vector<CurvePoint> points, Length shift, Force offset, Stiffness tilt,
                                     Force noise) {
   std::mt19937_64 random(7);
@@ -76,7 +76,7 @@ TEST_P(PaperCurve, GivesTheFiguresOfItsModelBack) {
   EXPECT_NEAR(found.pull_off->force / expected.f_ad, -1.0, 1e-9);
   EXPECT_NEAR(*found.contact_slope / expected.effective_stiffness, 1.0, 1e-9);
   EXPECT_NEAR(found.loop_energy / expected.loop_energy, 1.0, 1e-9);
-  // all that lies below the zero line: the triangle under the contact line
+  // whole area below the zero line: the triangle under the contact line
   EXPECT_NEAR(found.adhesion_energy / (0.5 * expected.f_ad * expected.z_joc), 1.0, 1e-6);
 }
 
@@ -95,7 +95,7 @@ TEST(CurveAnalysis, TakesNoAttractionForTiltWhereTheZeroIsTrue) {
   const CycleFigures& figures = model.figures();
   EXPECT_NEAR(found.snap_in->z / figures.z_jtc, 1.0, 0.005);
   EXPECT_NEAR(found.snap_in->force_before / figures.force_before_jtc, 1.0, 0.05);
-  // the same curve with an instrument's zero
+  // same curve with another zero of the instrument
   const auto leaning = analyse(points);
   EXPECT_GT(abs(leaning.snap_in->force_after - found.snap_in->force_after), 0.005 * abs(found.snap_in->force_after));
 }
@@ -109,7 +109,7 @@ TEST_P(PaperCurve, GivesThemBackThroughOffsetDriftAndNoise) {
   ASSERT_TRUE(found.contact_point && found.snap_in && found.pull_off && found.contact_slope);
   EXPECT_NEAR(found.baseline.tilt / expected.effective_stiffness, 0.02, 0.001);
   EXPECT_NEAR(found.baseline.noise / noise, 1.0, 0.1);
-  // in units of the lever's displacement that exceeds the noise
+  // lever's displacement that exceeds the noise
   const Length blur = noise / expected.effective_stiffness;
   EXPECT_NEAR((*found.contact_point - shift) / blur, 0.0, 3.0);
   EXPECT_NEAR((found.snap_in->z - shift - expected.z_jtc) / blur, 0.0, 3.0);
@@ -189,7 +189,7 @@ TEST(CurveAnalysis, DoesWithoutARetract) {
 TEST(CurveAnalysis, IntegratesOnlyWhereBothBranchesAre) {
   const auto whole = simulated(kMica, 0.01_nm);
   auto cut = whole;
-  // the retract goes on where nothing acts; an offset there must not count
+  // the retract continues beyond all forces, where an offset must not count
   for (int i = 1; i < 100; ++i) cut.push_back({cut.back().z + 1_nm, cut.back().force, Branch::Retract});
   EXPECT_NEAR(analyse(cut).loop_energy / analyse(whole).loop_energy, 1.0, 1e-12);
 }
@@ -228,7 +228,7 @@ TEST(MeasuredBranches, AreShortRisingAndKeepTheJumps) {
   EXPECT_NEAR((lowest(branches.approach).z - expected.z_jtc) / bin, 0.0, 3.0);
   EXPECT_NEAR((lowest(branches.retract).force + expected.f_ad) / 0.01_nN, 0.0, 1.0);
   EXPECT_NEAR((lowest(branches.retract).z - expected.z_joc) / bin, 0.0, 3.0);
-  // beyond the jumps nothing is left
+  // beyond the jumps no force is left
   EXPECT_NEAR(branches.retract.back().force / 0.01_nN, 0.0, 1.0);
 }
 
@@ -240,7 +240,7 @@ TEST(MeasuredBranches, AreFeltWithTheJumpsThatWereRecorded) {
         as_measured(simulated(contact, step), 2_um, -3_nN, 0.01 * expected.effective_stiffness, 0.002 * expected.f_ad);
     const auto branches = measured_branches(recording);
     const auto tables = measured_law_tables(branches.approach, branches.retract, contact);
-    // a jump lies somewhere in one of the bins, and in the two beside it their medians
+    // a jump may lie anywhere in one of the bins, and the medians anywhere in the two next to it
     const Length bin = 1.9 * expected.z_joc / static_cast<double>(branches.approach.size());
     EXPECT_NEAR((tables->figures.z_jtc - expected.z_jtc) / bin, 0.0, 2.0);
     EXPECT_NEAR((tables->figures.z_joc - expected.z_joc) / bin, 0.0, 2.0);

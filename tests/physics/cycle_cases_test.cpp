@@ -140,7 +140,7 @@ Question question_of(const Case& row) {
   return {Law::Hao, interaction_of(row), exact};
 }
 
-// Where the attached branch pulls and pushes with nothing.
+// Place at which the attached branch has zero force.
 double zero_of(const BranchTable& attached, double low, double high) {
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
@@ -170,7 +170,7 @@ double value_of(const Case& row, const LawTables& tables) {
   const double unit_load = std::numbers::pi * work_of_adhesion(contact).si * contact.tip_radius.si;
   if (row.output == "z_of_zero_force_on_contact_branch") return zero_of(tables.attached, 0.0, figures.z_joc.si);
   if (row.output == "contact_radius_at_pull_off") {
-    // of load control the table's softest lever is still 1e-8 short
+    // under load control the table's softest lever is still 1e-8 short
     if (row.input("kc") == 0.0) return jkr_pull_off_radius(adhesive_contact(contact)).si;
     return contact_radius(contact, figures.force_before_joc, -figures.tip_height_before_joc);
   }

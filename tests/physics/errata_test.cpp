@@ -84,7 +84,7 @@ TEST(Errata, Table2PrintsAWrongAttractionForMica) {
   const Force f_attr = approach_retract_events(kPrinted[0].contact).f_attr;
   EXPECT_LT(abs(f_attr - 0.2398_nN), kPrintedForce);
   EXPECT_GT(abs(f_attr - 0.2387_nN), 0.001_nN);
-  // 2.397 nm read as 2.387 nm gives what is printed
+  // 2.397 nm misread as 2.387 nm gives the printed value
   EXPECT_LT(abs(0.1_N_per_m * 2.387_nm - 0.2387_nN), kPrintedForce);
 }
 
@@ -144,7 +144,7 @@ TEST(Errata, FlowChartLeavesEqualityWithZjtcOpenAndTheLatchDoesNot) {
   EXPECT_EQ(model.step(events.z_jtc).phase, Phase::Attached);
 }
 
-// The rule of section 4, and what it does to a hand.
+// The rule of section 4, and its effect on a hand.
 
 TEST(Errata, DirectionRulePullsOnATipThatHasNeverTouched) {
   DirectionRuleModel rule(kPrinted[1].contact);

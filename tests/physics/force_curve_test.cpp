@@ -38,7 +38,7 @@ TEST(Sweep, EndsExactlyEvenIfTheStepDoesNotFit) {
 
 TEST(Sweep, HasThreeSamplesIfTheStepIsLongerThanItself) { EXPECT_EQ(sample_count({10_nm, 0_nm, 1_um}), 3U); }
 
-// the range is less than what counts as a rounding error of so long a step
+// the range is smaller than the tolerated rounding error of so long a step
 TEST(Sweep, HasItsEndsHoweverLongTheStepIs) { EXPECT_EQ(sample_count({10_nm, 0_nm, Length(1e3)}), 3U); }
 
 std::string refusal(const SweepPlan& plan) {
@@ -78,7 +78,7 @@ TEST_P(Step, DoesNotChangeExtremesAndLoopEnergy) {
   }
 }
 
-// Of a law that bends, a curve's area is as good as its step; its extremes are exact all the same.
+// For a nonlinear law the area of a curve is as accurate as its step; its extremes are exact.
 TEST(ForceCurve, OfAnyLawHoldsItsFigures) {
   ContactParameters contact = kMica;
   contact.reduced_modulus = 51.5_GPa;
@@ -137,7 +137,7 @@ TEST(ForceCurve, OfTheDirectionRuleLooksRightAndEndsOneStepEarly) {
   const DirectionRuleModel rule(kMica);
   const auto curve = record_curve(rule, {20_nm, -5_nm, 0.5_nm});
   ASSERT_EQ(curve.events.size(), 2U);
-  // its jumps lie at samples, so its extremes fall short: the defect of the paper's simulation column
+  // jumps lie at samples, so that the extremes fall short: the defect of the paper's simulation column
   const CurveSummary summary = summarise(curve.samples);
   EXPECT_LT(abs(summary.approach.force), abs(rule.figures().force_after_jtc));
 }

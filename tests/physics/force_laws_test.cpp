@@ -47,7 +47,7 @@ void expect_exact_derivatives(const LawBranch& branch, double s, const std::stri
   const LawPoint after = branch.at(s + kStep);
   const double dh = (after.h - before.h).si / (2.0 * kStep);
   const double df = (after.force - before.force).si / (2.0 * kStep);
-  // what the curve covers around here, and what a difference of two large numbers cannot see
+  // height covered by the curve near this place, and the rounding of a difference of two large numbers
   const double height = std::abs(here.h.si) + std::abs(here.dh_ds);
   const double force = std::abs(here.force.si) + std::abs(here.dforce_ds);
   EXPECT_NEAR(here.dh_ds, dh, kDifferenceError * height) << where << " at s = " << s;

@@ -226,7 +226,7 @@ TEST(ApproachRetractModel, NeverGivesWorkOnAClosedPath) {
       work = work + work_of_step(before, model, from, to);
       from = to;
     }
-    // back at the top it is free again, so that the rest of the path costs nothing
+    // free again at the top, so that the rest of the path costs nothing
     ASSERT_EQ(model.phase(), Phase::Free);
     ASSERT_GE(work.si, -1e-30) << path;
   }

@@ -91,7 +91,7 @@ class EveryLaw : public testing::TestWithParam<std::tuple<Law, std::size_t>> {
   const ContactParameters interaction_ = kContacts[std::get<1>(GetParam())];
   const std::shared_ptr<const LawTables> tables_ = build_law_tables(law_, interaction_);
   const CycleFigures& figures_ = tables_->figures;
-  // what the law's forces are measured against
+  // scale for errors of the law's forces
   const double scale_ = std::max(1e-11, std::abs(figures_.force_before_joc.si));
 };
 

@@ -28,7 +28,7 @@ std::vector<double> forces_of(Law law, const ContactParameters& contact) {
   std::vector<double> forces{figures.force_before_jtc.si, figures.force_after_jtc.si, figures.force_before_joc.si};
   for (const Length z : {-10_nm, -5_nm, -2_nm, -1_nm}) forces.push_back(tables->attached.force(z).si);
   for (const Length z : {4_nm, 6_nm, 10_nm, 15_nm}) forces.push_back(tables->free.force(z).si);
-  // where it jumps, as the lever's force there
+  // force of the lever at each jump
   for (const Length z : {figures.z_jtc, figures.z_joc}) forces.push_back((contact.spring_constant * z).si);
   return forces;
 }

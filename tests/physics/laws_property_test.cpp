@@ -24,7 +24,7 @@ namespace laws_property_test {
 
 const int kMaterials = support::draws(1'500);  // draws per law: more than ten thousand in all in a deep check
 
-// None where the paper's law or Hao's has no loop: an adhesion weaker than what the van der Waals force pulled in.
+// Tables; null if the paper's law or Hao's has no loop: an adhesion weaker than the van der Waals force at the jump in.
 std::shared_ptr<const LawTables> tables_of(Law law, const ContactParameters& contact) {
   try {
     return build_law_tables(law, contact);
@@ -60,7 +60,7 @@ void expect_ratio(double value, double reference, double ratio, double scale, co
   ASSERT_NEAR(value, reference * ratio, 1e-8 * scale) << what;
 }
 
-// With lengths lambda times and forces phi times as large all is the same but for the units, so every figure follows.
+// With all lengths times lambda and all forces times phi, every figure changes by the same factors.
 TEST_P(LawOfAnyMaterial, KnowsNoUnits) {
   constexpr double kLength = 1.7, kForce = 0.6;
   for_each_material(101, [&](const LawTables& tables) {
@@ -100,7 +100,7 @@ TEST_P(LawOfAnyMaterial, JumpsInBeforeItJumpsOffAndNeverGivesEnergy) {
     if (!figures.hysteretic) {
       ASSERT_EQ(figures.z_jtc, figures.z_joc);
       ASSERT_EQ(figures.loop_energy, Energy());
-      // where Maugis-Dugdale holds a longer attraction two narrow loops, one beside the other, count as none
+      // where Maugis-Dugdale holds a longer attraction, two narrow loops side by side count as none
       if (GetParam() == Law::MaugisDugdale && tables.contact_gap > 4.0 * tables.contact.atomic_distance) return;
       ASSERT_LE(figures.critical_stiffness, tables.contact.spring_constant * (1.0 + 1e-9));
       return;

@@ -39,7 +39,7 @@ TEST(LennardJones, ForceIsTheSlopeOfThePotentialAndGradientThatOfTheForce) {
     const Length z0 = law.atomic_distance();
     const Length gap = random.between(0.5, 1e3) * z0;
     const Length step = 1e-5 * gap;
-    // beside what the terms reach by themselves: they cancel near the minima
+    // relative to the size of the terms, which cancel near the minima
     const double x = z0 / gap;
     const double scale = (m.tip_radius * m.mean_surface_energy).si * (x * x + std::pow(x, 8.0));
     const Force slope = -(law.potential(gap + step) - law.potential(gap - step)) / (2.0 * step);

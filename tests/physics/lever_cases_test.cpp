@@ -108,7 +108,7 @@ LeverDynamics lever_of(const Case& row) {
   if (!row.inputs.contains("gamma")) {
     return {Frequency(row.input("f0")), row.input("Q"), Temperature(row.input_or("T", 0.0))};
   }
-  // without mass: a Q so low that the velocity forgets 400 times as fast as the lever moves, at the same k/(w0 Q)
+  // no mass: Q so low that the velocity decays 400 times as fast as the lever moves, at the same k/(w0 Q)
   constexpr double kQuality = 0.05;
   const double w0 = row.input("kc") / (kQuality * row.input("gamma"));
   return {Frequency(w0 / (2.0 * std::numbers::pi)), kQuality, Temperature()};

@@ -60,7 +60,7 @@ TEST(MaugisPoint, DerivativesAreThoseOfTheFamily) {
   for (int i = 0; i < kMaterials; ++i) {
     const double lambda = random.between(1e-3, 1e4);
     const double step = 1e-5;
-    // beside the point, whose load has no second derivative, and beyond it
+    // near the point whose load has no second derivative, and beyond it
     const double s = i % 4 == 0 ? random.between(0.001, 3.0) : -random.between(0.05, 20.0);
     const MaugisPoint before = maugis_point(lambda, s - step);
     const MaugisPoint here = maugis_point(lambda, s);
@@ -185,7 +185,7 @@ struct JoinedLaw {
   ContactParameters contact;
   ForceLaw law;
   bool single_valued() const { return law.attached.at(law.attached.last).h > 0.5_mm; }
-  // the end of the contact, or of what pulls as strongly
+  // End of the contact, or of an equally strong pull.
   double contact_end() const { return single_valued() ? law.attached.kinks.back() : law.attached.last; }
   bool is_near_kink(double s) const {
     const auto& kinks = law.attached.kinks;
@@ -203,7 +203,7 @@ void for_random_laws(Check check, int materials = kMaterials) {
     single_valued += joined.single_valued() ? 1 : 0;
     check(joined, random);
   }
-  // both kinds are looked at
+  // checks that both kinds occurred
   EXPECT_GT(single_valued, materials / 20);
   EXPECT_LT(single_valued, materials - materials / 20);
 }
@@ -216,7 +216,7 @@ TEST(MaugisLaw, FreeBranchEndsOnTheContactsCurve) {
     double inner = law.attached.first;
     double outer = joined.contact_end();
     if (joined.single_valued()) {
-      // one curve, so far in that no lever has a fold beyond
+      // one curve, so far in that no lever has a fold beyond it
       EXPECT_EQ(law.attached.at(-law.free.last).force, formed.force);
       EXPECT_NEAR(formed.dforce_ds * law.contact_gap.si / (adhesion_force(joined.contact).si * formed.dh_ds), 0.0,
                   1e-6);
@@ -255,7 +255,7 @@ TEST(MaugisLaw, EveryCycleDissipatesAndEveryJumpLosesEnergy) {
       EXPECT_GE(figures.loop_energy, -rounding);
       EXPECT_GE(figures.lost_at_jtc, -rounding);
       EXPECT_GE(figures.lost_at_joc, -rounding);
-      // where the end under fixed grips is near, a rounding of Z moves the force by its square root
+      // near the end under fixed grips, a rounding of Z moves the force by its square root
       EXPECT_LE(figures.force_after_jtc, figures.force_before_jtc + 1e-6 * adhesion_force(m));
       EXPECT_TRUE(!figures.hysteretic || stiffness < 1.001 * figures.critical_stiffness.si || !joined.single_valued());
     }
@@ -291,7 +291,7 @@ TEST(MaugisLaw, PotentialsOfBothBranchesMeetWhereContactForms) {
   for_random_laws([](const JoinedLaw& joined, RandomInteraction&) {
     if (joined.single_valued()) return;
     const auto& [m, law] = joined;
-    // from the end back to where contact forms, by the trapezoidal rule over the square root of the way
+    // from the end back to the formation of the contact, by the trapezoidal rule over the square root of the path
     const LawPoint formed = law.free.at(law.free.last);
     double inner = law.attached.first;
     double outer = law.attached.last;

@@ -115,7 +115,7 @@ TEST(MeasuredCurve, CostsTheHandTheEnergyOfItsLoop) {
     const Length top = 1.2 * tables->figures.z_joc;
     model.step(top);
     const Energy down = work(model, top, tables->pressed_to), up = work(model, tables->pressed_to, top);
-    // the turn at the deepest place keeps some of it
+    // the turn at the deepest place takes some of it
     EXPECT_LE((down + up) / tables->figures.loop_energy, 1.0 + 1e-3);
     EXPECT_GE((down + up) / tables->figures.loop_energy, 0.85);
   }

@@ -93,7 +93,7 @@ TEST(WetLaw, BridgeFormsAndBreaksAtItsGapsOrWithTheNeck) {
         EXPECT_NEAR(breaks.si, std::min(rupture, neck_end).si, 1e-9 * rupture.si) << name_of(name);
         const Length formation = std::min(contact + bridge_formation_gap(meniscus), breaks);
         EXPECT_NEAR(forms.si, std::max(formation, contact).si, 1e-9 * rupture.si);
-        // what holds a bridge is never farther out than where it breaks
+        // a bridge never forms farther out than it breaks
         EXPECT_TRUE(name == Law::Hao || forms <= breaks * (1.0 + 1e-9));
       });
 }

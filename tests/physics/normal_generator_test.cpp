@@ -31,7 +31,7 @@ TEST(NormalGenerator, HasTheMomentsOfTheNormalDistribution) {
   EXPECT_NEAR(sums[4] / kCount, 3.0, error * std::sqrt(96.0));
 }
 
-// By Pearson's chi squared over bins that cut the ziggurat's layers and its tail alike.
+// Pearson's chi squared over bins that cut the ziggurat's layers and its tail alike.
 TEST(NormalGenerator, FillsEveryBinAsTheBellDoes) {
   constexpr double kWidth = 0.1;
   constexpr std::size_t kBins = 100;  // from -5 to 5; beyond, the outermost take all
@@ -63,7 +63,7 @@ TEST(NormalGenerator, RepeatsItselfForTheSameSeedOnly) {
   EXPECT_EQ(alike, 0);
 }
 
-// The sequence is part of what a recorded session means: replaying it on another machine gives the same forces.
+// Recorded sessions depend on this sequence: a replay on another machine gives the same forces.
 TEST(NormalGenerator, IsTheSameEverywhere) {
   NormalGenerator normal(1);
   const std::array<double, 3> first{normal(), normal(), normal()};

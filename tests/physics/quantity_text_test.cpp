@@ -162,7 +162,7 @@ TEST(QuantityText, ReadsBackWhatItShows) {
 
 TEST(QuantityText, DoesNotFollowTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
-  // where no such locale is installed, the default one is tested once more
+  // without that locale, the default one is tested once more
   std::setlocale(LC_ALL, "de_DE.UTF-8");
   EXPECT_DOUBLE_EQ(parsed("0.5nm", kLengthUnits), 5e-10);
   EXPECT_EQ(format_quantity(Length(1.5e-9), kLengthUnits), "1.5 nm");

@@ -16,7 +16,7 @@
 #include "support/scratch_folder.h"
 #include "support/vulkan_fixture.h"
 
-// Projectors that overlap show together what one would.
+// Overlapping projectors show together what a single one would.
 namespace afm::test {
 namespace blending_test {
 
@@ -31,12 +31,12 @@ double light_of(double value, std::optional<double> gamma) {
   return gamma ? std::pow(value, *gamma) : linear_from_srgb(value);
 }
 
-// Half of what a step of 8 bits is there.
+// Half of the 8-bit step at this value, in light.
 double half_step(int value, std::optional<double> gamma) {
   return light_of((value + 0.5) / 255.0, gamma) - light_of(value / 255.0, gamma);
 }
 
-// Both of every value of 8 bits.
+// Light and half step of every 8-bit value.
 class Levels {
  public:
   explicit Levels(std::optional<double> gamma) {
@@ -165,7 +165,7 @@ double sum_differs(StereoMode mode, std::optional<double> gamma, const render::I
         odd += same ? 0U : 1U;
         if (!same) continue;
         for (std::size_t c = 0; c < 3; ++c) {
-          // what is filtered or mixed was not rounded before it was blended
+          // a filtered or mixed value was not rounded before blending
           const double own = exact ? 0.0 : 1.4 * levels.half(one.at(c));
           const double allowed = bound.at(c) + own + drawn_otherwise + 2e-6;
           worst = std::max(worst, std::abs(sum.at(c) - levels.light(one.at(c))) / allowed);
@@ -239,7 +239,7 @@ TEST_F(Blended, PairThatIsNotBlendedDoesNotAddUp) {
   EXPECT_GT(worst, 10.0);
 }
 
-// The light that black leaves, with what raises it: as much beside the overlap as in it, and as much under any picture.
+// Light of black, with what raises it: equal beside the overlap and in it, and under any picture.
 TEST_F(Blended, BlackIsAsBrightBesideTheOverlapAsInIt) {
   constexpr double kBlack = 0.02;
   for (const std::optional<double> gamma : {std::optional<double>(), {2.2}}) {

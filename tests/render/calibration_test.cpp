@@ -60,7 +60,7 @@ TEST_F(Calibration, ShowsNeitherLetterWhereBothEyesSeeOnePicture) {
   }
 }
 
-// Green lines at both ends of a ramp, as far from its edge as it says.
+// Green lines at both ends of a ramp, at its stated width from the edge.
 TEST_F(Calibration, MarksWhereThePictureFadesOut) {
   const auto columns_of = [&](const std::array<scene::EdgeRamp, 4>& ramps) {
     const render::Image plain = pattern(render::PassMode::Multiview).left;

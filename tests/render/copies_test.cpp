@@ -141,7 +141,7 @@ TEST_F(Copies, RedrawnWhereTheyChangeGiveTheBytesOfRedrawingEverything) {
   EXPECT_EQ(changes.redrawn_share(), 0.0) << "nothing has changed";
 }
 
-// Also the copies that both frames in flight were given at different times.
+// Includes copies that both frames in flight received at different times.
 TEST_F(Copies, AreThoseOfTheNewestFrame) {
   Crowd crowd = copies_test::crowd(40, 7);
   auto renderer = make_renderer(crowd.scene, small());

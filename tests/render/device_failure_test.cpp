@@ -27,7 +27,7 @@ class DeviceFailureTest : public testing::Test {
     return std::move(*context);
   }
 
-  // What is thrown within a few frames, with the number of frames before; nothing if all are drawn.
+  // Error thrown within a few frames, with the number of frames before it; empty if all are drawn.
   template <class Draw>
   static std::optional<std::string> failure_of(Draw&& draw) {
     try {
@@ -54,7 +54,7 @@ TEST_F(DeviceFailureTest, ALostDeviceIsSaidInOneLineAndTakenDownInOrder) {
   EXPECT_THAT(*said, AllOf(HasSubstr("was lost while drawing a frame"), HasSubstr(context.device_name()),
                            Not(HasSubstr("\n"))));
 
-  // every other call says so too, and destroying the renderer throws nothing
+  // every other call throws it, too, and destroying the renderer throws nothing
   EXPECT_THROW(renderer->wait(), render::DeviceFailure);
   EXPECT_THROW(renderer->read_eye(scene::Eye::Left), render::DeviceFailure);
   EXPECT_THROW(renderer->read_composed({}), render::DeviceFailure);
@@ -82,7 +82,7 @@ TEST_F(DeviceFailureTest, AnyAllocationMayBeTheLast) {
       continue;
     }
 
-    // what was never asked for before cannot be had either, and leaves everything as it was
+    // a request for more fails, too, and leaves everything unchanged
     ++drawn;
     std::optional<std::string> refusal;
     for (int i = 0; i < 30 && !refusal; ++i) {

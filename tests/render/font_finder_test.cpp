@@ -33,7 +33,7 @@ TEST(FontFinder, TakesNoOtherFileForAFont) {
   EXPECT_EQ(finder.read(FontFace::DejaVu), debian_font(kDebian));
 }
 
-// As on Arch, whose fonts are in another folder.
+// System like Arch, whose fonts are in another folder.
 TEST(FontFinder, AsksFontconfigForTheFamilyAndWeight) {
   FontFinder finder({});
   EXPECT_EQ(finder.read(FontFace::DejaVu), debian_font(kDebian));

@@ -9,7 +9,7 @@
 #include "support/no_alloc.h"
 #include "support/vulkan_fixture.h"
 
-// Once everything has been as large as it gets. Without the validation layers, which allocate in the caller's thread.
+// Frames after everything has reached its largest size. No validation layers: they allocate in the caller's thread.
 namespace afm::test {
 namespace frame_allocation_test {
 

@@ -29,7 +29,7 @@ class QualityOfFrames : public VulkanTest {
   render::FrameState frame_ = full_frame(test_);
 };
 
-// Each pixel of the half is within the four that it is enlarged to, which are blended with their neighbours.
+// Each pixel of the half is within the four to which it is enlarged, which are blended with their neighbours.
 TEST_F(QualityOfFrames, HalfTheResolutionIsThePictureOfAnEyeHalfAsLarge) {
   const render::FrameState frame = without_panels();
   auto half = small();
@@ -136,7 +136,7 @@ TEST_F(QualityOfFrames, ScalingBackUpPutsThingsWhereTheyWere) {
   EXPECT_NEAR(centroid(half, weight)->x, centroid(whole, weight)->x, 1.0);
   EXPECT_NEAR(centroid(half, weight)->y, centroid(whole, weight)->y, 1.0);
 
-  // nothing of what lies beside the part that was drawn is shown
+  // nothing from beside the drawn part is shown
   for (std::uint32_t y = 0; y < half.height; ++y) {
     const std::size_t last = 4 * (std::size_t{y} * half.width + half.width - 1);
     ASSERT_NEAR(half.rgba[last], whole.rgba[last], 6) << y;
@@ -154,7 +154,7 @@ TEST_F(QualityOfFrames, EyesThatSeeTheSameAreDrawnOnceAndShownTwice) {
   EXPECT_EQ(same.right.rgba, oracle.left.rgba);
   EXPECT_EQ(renderer.read_composed({.mode = scene::StereoMode::Right}).rgba, oracle.left.rgba);
 
-  // and the right eye's picture is drawn again when it differs again
+  // the right eye's picture is drawn again when it differs again
   EXPECT_EQ(eyes_of(renderer, frame_).right.rgba, stereo.right.rgba);
 }
 

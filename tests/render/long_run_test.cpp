@@ -29,7 +29,7 @@ std::int64_t median(std::array<std::int64_t, kRounds> values) {
   return values[kRounds / 2];
 }
 
-// What the process and its device hold. On a CPU device the driver's memory is the process's too.
+// Memory of the process and its device. On a CPU device the driver's memory is the process's, too.
 struct Held {
   std::size_t heap_bytes = 0;
   int device_allocations = 0;

@@ -260,7 +260,7 @@ class NormalMaps : public Materials {
     lights_ = {{sun, glm::vec3(0.0F), glm::normalize(along)}};
   }
 
-  // Without tangents, having made sure that it looks the same with them.
+  // Image without tangents, after a check that it looks the same with them.
   render::Image see_both(const glm::dmat4& room_from_node) {
     square_.tangents.clear();
     render::Image derived = see(room_from_node);
@@ -290,7 +290,7 @@ TEST_F(NormalMaps, LeanOutwardsInANodeThatMirrorsToo) {
   expect_leaning(Sense::Outwards, glm::scale(glm::dmat4(1.0), glm::dvec3(2.0, -2.0, 2.0)));
 }
 
-// What leans outwards in front is, from behind, a dent: everything leans inwards.
+// A bump that leans outwards in front is a dent from behind, so everything leans inwards.
 TEST_F(NormalMaps, AreReversedOnTheBack) {
   expect_leaning(Sense::Inwards, glm::rotate(glm::dmat4(1.0), glm::pi<double>(), glm::dvec3(0.0, 1.0, 0.0)) *
                                      glm::scale(glm::dmat4(1.0), glm::dvec3(2.0)));

@@ -10,7 +10,7 @@
 namespace afm::render {
 namespace mesh_order_test {
 
-// A square of `side` by `side` cells, row by row, as height fields come, and a vertex that nothing uses.
+// A grid of `side` by `side` cells, row by row, like a height field, and an unused vertex.
 scene::Primitive grid(std::uint32_t side) {
   scene::Primitive primitive;
   const std::uint32_t across = side + 1;
@@ -32,7 +32,7 @@ scene::Primitive grid(std::uint32_t side) {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Of the primitive's own vertices, each triangle from its smallest on, so that its winding stays.
+// Triangles with the primitive's own vertices, each from its smallest on, so that the winding stays.
 std::vector<Triangle> triangles(const MeshOrder& order) {
   std::vector<Triangle> found;
   for (std::size_t i = 0; i + 2 < order.indices.size(); i += 3) {
@@ -51,7 +51,7 @@ MeshOrder as_given(const scene::Primitive& primitive) {
   return order;
 }
 
-// How many vertices a device shades that remembers the newest `size` of them.
+// Number of vertices shaded by a device that remembers the newest `size` of them.
 std::size_t shaded(const std::vector<std::uint32_t>& indices, std::size_t size) {
   std::vector<std::uint32_t> newest;
   std::size_t count = 0;

@@ -23,7 +23,7 @@ class OneView : public testing::Test {
     return std::move(*context);
   }
 
-  // Both eyes, and what a wall of every mode would show of them.
+  // Images of both eyes, and of a wall in every mode.
   std::vector<render::Image> draw(render::Context& context) {
     auto renderer = render::Renderer::create(context, test_.scene, small(4, render::PassMode::Automatic));
     if (!renderer) throw std::runtime_error(renderer.error().message);
@@ -57,7 +57,7 @@ TEST_F(OneView, ShowsWhatADeviceWithMultiviewShows) {
   EXPECT_THAT(unable.take_validation_messages(), testing::IsEmpty());
 }
 
-// Of a curved screen that is blended with another.
+// A curved screen that is blended with another.
 TEST_F(OneView, CorrectsAProjectorAsADeviceWithMultiviewDoes) {
   bent_ = std::make_shared<const scene::WarpMesh>(
       scene::WarpMesh{2, 2, {{{0, 0}, {0.1, 0}}, {{1, 0}, {1, 0.2}}, {{0, 1}, {0, 1}}, {{1, 1}, {0.9, 0.9}}}});

@@ -75,7 +75,7 @@ TEST_F(PanelsInTheRoom, GreekMinusSignsAndSubscriptsHaveGlyphs) {
   }
 }
 
-// It says whether a force reaches the hand.
+// The banner shows whether a force reaches the hand.
 TEST_F(PanelsInTheRoom, NothingCoversTheBanner) {
   scene::Scene scene;
   scene::PbrMaterial material;
@@ -114,7 +114,7 @@ TEST_F(PanelsInTheRoom, ACurveLiesWhereItsNumbersAre) {
   EXPECT_GT(a.y, b.y + 10.0);
 }
 
-// 9000 texels, more than a texture has: it was cut at 4096, and the state of the force with it.
+// 9000 texels, more than a texture can have: the panel was once cut at 4096, with the state of the force.
 TEST_F(PanelsInTheRoom, OneThatIsLargerThanATextureIsShownWhole) {
   auto frame = bare_frame(empty_);
   frame.panels.banner.content.state_word = "FORCE ON";

@@ -71,7 +71,7 @@ class SmoothShading : public VulkanTest {
 
 class PerVertexShading : public VulkanTest {
  protected:
-  // The same surface with the shadow of a lever on it; what is seen from both sides is shaded by fragment.
+  // Same surface under the shadow of a lever; surfaces visible from both sides are shaded by fragment.
   static scene::Scene scene_of_hills(bool by_fragment) {
     scene::Scene scene;
     const auto gold = add_material(scene, {.name = "gold",
@@ -91,7 +91,7 @@ class PerVertexShading : public VulkanTest {
   }
 };
 
-// Executable memory of no file: what a driver that draws on the CPU has compiled.
+// Executable memory without a file: code compiled by a driver that draws on the CPU.
 std::size_t compiled_bytes() {
   std::ifstream maps("/proc/self/maps");
   std::size_t bytes = 0;

@@ -9,7 +9,7 @@
 namespace afm::render {
 namespace pixel_tiles_test {
 
-// How many of the area's boxes have the pixel.
+// Number of the area's boxes that contain the pixel.
 int times(const PixelArea& area, const glm::ivec2& pixel) {
   int count = 0;
   for (const PixelBox& box : area.boxes()) {

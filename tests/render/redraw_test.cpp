@@ -23,7 +23,7 @@ namespace redraw_test {
 constexpr int kFrames = 40;
 constexpr std::array<unsigned, 3> kSeeds{1, 2, 4};
 
-// What is redrawn is cut at multiples of 64 pixels.
+// The redrawn part is cut at multiples of 64 pixels.
 render::RendererOptions of_many_tiles(std::uint32_t samples = 4,
                                       render::PassMode pass_mode = render::PassMode::Multiview) {
   render::RendererOptions options = small(samples, pass_mode);
@@ -83,7 +83,7 @@ class Story {
         {"the light", [&] { frame_.key_light.direction_to_light.x = static_cast<float>(real(-0.6, 0.6)); }},
         {"the fog", [&] { frame_.fog.fade = whole(0, 1) == 0 ? 0.0F : 0.3F; }},
     }};
-    // what changes everything is rare
+    // changes of everything are rare
     const int drawn = whole(0, 99);
     const auto& [what, happens] = all[static_cast<std::size_t>(drawn < 94 ? drawn % 15 : whole(15, 17))];
     told += std::string(told.empty() ? "" : ", ") + what;
@@ -155,7 +155,7 @@ class Redraw : public VulkanTest {
     }
   }
 
-  // Of one picture, no larger than the eyes' beside each other.
+  // Mode with one picture, no larger than both eyes side by side.
   static scene::StereoMode any_mode(Story& story) {
     scene::StereoMode mode{};
     do {
@@ -231,7 +231,7 @@ TEST_F(Redraw, WithOneLightGivesTheBytesOfRedrawingEverything) {
   expect_same(options, 31);
 }
 
-// Also of one that was composed before more frames than are remembered.
+// Includes a picture that was composed before more frames than are remembered.
 TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
   auto changes = make_renderer(test_.scene, of_many_tiles());
   render::FrameState frame = full_frame(test_);
@@ -248,7 +248,7 @@ TEST_F(Redraw, OfAComposedPictureIsRightHoweverOldItIs) {
   }
 }
 
-// What looks the same, in another object too, draws nothing; what moves, its part; another head, everything.
+// An equal object draws nothing; a moved one, its part; another head, everything.
 TEST_F(Redraw, DrawsAsMuchAsHasChanged) {
   auto renderer = make_renderer(test_.scene, of_many_tiles());
   const auto share = [&](const render::FrameState& frame) {

@@ -14,13 +14,13 @@
 #include "support/pictures.h"
 #include "support/vulkan_fixture.h"
 
-// The shadow map stays as it is while nothing that it depends on changes.
+// The shadow map stays unchanged until something changes on which it depends.
 namespace afm::test {
 namespace shadow_test {
 
 class ShadowTest : public VulkanTest {
  protected:
-  // What the map depends on, changed one at a time.
+  // Frames in which one of the map's inputs is changed.
   std::vector<std::pair<std::string, render::FrameState>> changed_frames() {
     std::vector<std::pair<std::string, render::FrameState>> frames;
     const auto with = [&](const char* what, const std::function<void(render::FrameState&)>& change) {
@@ -57,7 +57,7 @@ TEST_F(ShadowTest, FollowsEverythingThatItDependsOn) {
   }
 }
 
-// What moves is drawn onto what rests: it leaves nothing behind, off the map too, and another one may move next.
+// Moving casters are drawn over static ones: they leave no trace, even off the map, and another may move next.
 TEST_F(ShadowTest, IsRestoredWhereSomethingHasMovedAway) {
   auto renderer = make_renderer(test_.scene, small(1));
   render::FrameState frame = full_frame(test_);
@@ -130,7 +130,7 @@ TEST_F(ShadowTest, LeavesNoSpecksOnWhatShadowsItself) {
   }
 }
 
-// A floor below a ball: what needs no shadow of the map is as without a caster.
+// A floor below a ball: objects without a map shadow look as if there were no caster.
 TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
   scene::Scene scene;
   const std::uint32_t chalk = add_material(scene, {.name = "chalk", .metallic = 0.0F});
@@ -155,7 +155,7 @@ TEST_F(ShadowTest, FallsNeitherOnWhatTakesNoneNorInAFrameWithoutOne) {
   frame.key_light.map_share = 0.0F;
   EXPECT_EQ(draw(scene, frame, small(1)).left.rgba, lit.rgba);
 
-  // nor where there is one light alone
+  // nor in a frame with only one light
   frame.key_light.map_share = 1.0F;
   render::RendererOptions one_light = small(1);
   one_light.lighting = render::Lighting::KeyAlone;

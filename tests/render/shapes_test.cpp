@@ -90,7 +90,7 @@ TEST_F(Shapes, AreNotShownWithoutAnEntryOfTheFrame) {
   EXPECT_EQ(where_differ(draw(shaped.scene, shaped.frame, small()).left, without), "") << "hidden";
 }
 
-// Line by line, with frames in which nothing changes and one without the shape.
+// Changes line by line, with frames in which nothing changes and one without the shape.
 TEST_F(Shapes, RedrawnWhereTheyChangeGiveTheBytesOfRedrawingEverything) {
   Growing shaped = growing(0.4F, true);
   render::RendererOptions options = small();

@@ -28,7 +28,7 @@ class Stereo : public VulkanTest {
   struct Seen {
     glm::dvec2 left, right;
   };
-  // Only a white square of 0.2 m at `at`.
+  // View of a single white square of 0.2 m at `at`.
   Seen see_square(const glm::dvec3& at) {
     scene::Scene scene;
     const auto white = add_material(scene, {.name = "white", .unlit = true});
@@ -64,7 +64,7 @@ TEST_F(Stereo, ParallaxFarAwayIsNoMoreThanTheEyesAreApart) {
   EXPECT_LE(seen.right.x - seen.left.x, kIpd * kPixelsPerMetre + kCentroidTolerance);
 }
 
-// Reversed depth keeps two surfaces apart however far from the near plane they are, whichever is drawn first.
+// Reversed depth separates two surfaces at any distance from the near plane, in either drawing order.
 TEST_F(Stereo, TheNearerOfTwoSurfacesIsSeen) {
   for (const double z : {1.5, 0.0, -60.0}) {
     for (const bool near_first : {true, false}) {
@@ -124,7 +124,7 @@ TEST_F(Stereo, HiddenNodesAreNotDrawnAndHighlightedOnesGlow) {
   frame.visible[test.mica] = 0;
   const auto hidden = draw(test.scene, frame, small());
 
-  // where the mica ball is seen
+  // place where the mica ball is seen
   const std::uint32_t x = 90, y = 131;
   EXPECT_GT(pixel(glowing.left, x, y).r, pixel(plain.left, x, y).r + 15);
   EXPECT_NE(pixel(hidden.left, x, y).g, pixel(plain.left, x, y).g);

@@ -21,7 +21,7 @@ class Tiles : public VulkanTest {
   TestScene test_ = make_test_scene();
 };
 
-// Each tile is drawn for its own screen; put together they are the wall that is drawn whole, the background included.
+// Each tile is drawn for its own screen; together they equal the wall drawn as a whole, with the background.
 TEST_F(Tiles, TogetherAreTheWholeWall) {
   auto frame = bare_frame(test_.scene);
   auto renderer = make_renderer(test_.scene, small());

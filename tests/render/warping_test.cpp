@@ -96,7 +96,7 @@ TEST_F(Warped, AMeshMovesThePictureInsideEachEyesPartAndLeavesTheRestBlack) {
   EXPECT_EQ(rgb_at(pair[1], 200, 100), rgb_at(right_, 200 - kShiftPx, 100));
 }
 
-// As arithmetic has it: bilinear in linear light at the place that the mesh says, and its intensity of that.
+// Computed picture: bilinear in linear light at the mesh's place, times its intensity.
 TEST_F(Warped, ABarrelShowsWhatItsArithmeticSays) {
   const auto barrel = [](const glm::dvec2& output) {
     const glm::dvec2 from_middle = output - 0.5;

@@ -41,7 +41,7 @@ class SightOfAWindow : public ::testing::Test {
     XChangeProperty(display_.get(), window, atom(property), type, 32, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(&value), 1);
   }
-  // As the server has it after all that was done.
+  // State of the window according to the server, after all earlier requests.
   Sight sight() const {
     XSync(display_.get(), False);
     return sight_->look();
@@ -114,7 +114,7 @@ TEST_F(SightOfAWindow, EndsWhenTheScreenSaverIsActive) {
 TEST_F(SightOfAWindow, IsNotLostWithTheServer) {
   server_.die();
   EXPECT_EQ(sight_->look(), Sight::Seen);
-  // not closed, because Xlib would end the program; kept, so that it is no leak
+  // not closed, because Xlib would end the program; kept reachable, so that it is no leak
   [[maybe_unused]] static Display* const kept = display_.release();
 }
 

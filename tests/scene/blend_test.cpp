@@ -147,7 +147,7 @@ TEST(BlendOfAWall, AddsUpToOnePicture) {
 }
 
 TEST(BlendOfAWall, AddsUpWhereScreensAreNoGrid) {
-  // as a tape measure has them, like bricks, at a corner only, and of different heights
+  // measured by tape: like bricks, at a corner only, and of different heights
   expect_one_picture(wall_of({{"a", -2, 0.203, 1.4, 3},
                               {"b", -0.2, 2, 1.398, 3.004},
                               {"c", -2.001, 0.198, 0, 1.602},

@@ -65,7 +65,7 @@ TEST_F(RandomEyes, HaveDepthOneAtTheNearPlaneAndZeroAtInfinity) {
   EXPECT_NEAR(far.z / far.w, 0.0, kExact);
 }
 
-// One projection function: the off-axis view of the rectangle that fills the field of view is the same picture.
+// One projection function: the off-axis view of the rectangle that fills the field of view gives the same picture.
 TEST_F(RandomEyes, SeeWhatTheOffAxisViewOfTheirScreenSees) {
   for (int i = 0; i < kPoses; ++i) {
     const HeadPose head = pose();

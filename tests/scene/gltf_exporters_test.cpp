@@ -20,7 +20,7 @@ using testing::IsEmpty;
 
 class Exporters : public GltfFolder {
  protected:
-  // With the notes of this call.
+  // Scene with the notes of this call.
   Scene drawn(const json& document, const std::string& binary = square_binary()) {
     notes_ = {};
     auto scene = load_gltf(write("model.glb", glb(document.dump(), binary)), &notes_);
@@ -55,7 +55,7 @@ TEST_F(Exporters, DrawsFactorsThatAreRounded) {
   }
 }
 
-// As libraries of C# write members without a value.
+// Members without a value, as written by libraries of C#.
 TEST_F(Exporters, TakesNullAsAbsent) {
   json document = square_json();
   document["animations"] = nullptr;
@@ -219,7 +219,7 @@ TEST_F(Exporters, DrawsWithoutAnImageThatIsNotThere) {
     EXPECT_FALSE(scene->materials[0].texture(TextureSlot::BaseColor).texture);
     EXPECT_TRUE(scene->images.empty() && scene->textures.empty());
   }
-  // one of two is there
+  // one of two members is present
   json document = square_json();
   document["images"] = json::array({{{"uri", "C:\\work\\red.png"}}, {{"uri", "tex\\red.png"}}});
   document["textures"] = json::array({{{"source", 0}}, {{"source", 1}}});

@@ -30,7 +30,7 @@ struct HostileCase {
   std::function<void(json&)> spoil;
 };
 
-// Each refused by its own reason. Of most of them a parser that believes the file says nothing.
+// Cases refused for their own reasons. A parser that believes the file accepts most of them.
 const std::vector<HostileCase>& hostile_cases() {
   static const std::vector<HostileCase> cases{
       {"AccessorWithoutView", "/accessors/0/bufferView is 7", [](json& d) { d["accessors"][0]["bufferView"] = 7; }},
@@ -262,7 +262,7 @@ TEST_F(HostileGltf, IsRefusedForAFileThatIsTooLarge) {
   expect_refused(load_gltf(path), "256 MiB");
 }
 
-// What the extensions and the parts beside meshes and nodes can do wrong: the square with more in it.
+// Errors in the extensions and in parts other than meshes and nodes: the square with more in it.
 json rich_json() {
   json d = square_json();
   d["accessors"].push_back({{"componentType", 5126}, {"count", 4}, {"type", "VEC4"}});    // 2

@@ -115,7 +115,7 @@ TEST_F(GltfLoader, ReadsMaterialFactorsAndExtensions) {
   EXPECT_TRUE(material.double_sided && material.blended && !material.unlit);
 }
 
-// What it says beside its base colour is for programs that do not know the extension.
+// Fields other than the base colour are for programs that do not know the extension.
 TEST_F(GltfLoader, TakesNoEmissionFromAnUnlitMaterial) {
   json document = square_json();
   document["extensionsUsed"] = {"KHR_materials_unlit"};

@@ -208,7 +208,7 @@ TEST(Tip, EndsInABallOfFiftyNanometres) {
   std::size_t on_the_ball = 0;
   for (const glm::dvec3& p : positions_of(mesh_of(scene, "tip"))) {
     lowest = std::min(lowest, p.z);
-    // nothing of the tip reaches into the ball, whose lowest part is the tip's own
+    // the tip does not reach into the ball, whose lowest part belongs to the tip
     EXPECT_GE(glm::length(p - center), 50e-9 * (1 - 1e-4));
     if (p.z < apex + 15e-9) {
       EXPECT_NEAR(glm::length(p - center), 50e-9, 50e-9 * 1e-4);

@@ -202,7 +202,7 @@ TEST(ParticleSet, HasPadsOnWhichSpheresStick) {
   const auto shared = std::make_unique<SharedParticles>(shared_particles(*set));
   EXPECT_TRUE(has_pads(*shared));
   EXPECT_TRUE(has_lift(*shared));
-  // in the frame of the particles
+  // set-up in the frame of the particles
   const physics::PushSetup setup = push_setup(*shared);
   ASSERT_EQ(setup.pads.size(), 1U);
   const auto way = set->setup.pads[0].middle - set->particles[0].position;

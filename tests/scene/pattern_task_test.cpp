@@ -205,7 +205,7 @@ TEST_F(PatternTaskTest, CountsLossesAndPushesTakenBackButNoOtherEvents) {
   EXPECT_EQ(score().state, TaskState::Running);
 }
 
-// An aid, as a push taken back is.
+// A groove is an aid, like a push taken back.
 TEST_F(PatternTaskTest, CountsPushesInAGrooveOnceEach) {
   guided_ = true;
   tick(kLowM);
@@ -227,7 +227,7 @@ TEST_F(PatternTaskTest, CountsPushesInAGrooveOnceEach) {
   EXPECT_EQ(score().strokes, 3U);
 }
 
-// Another aid, for the whole of a task as soon as there was one tick of it.
+// Another aid, which counts for the whole task as soon as it is used for one tick.
 TEST_F(PatternTaskTest, NotesThatTheParticlesThemselvesWereShown) {
   truth_ = true;
   wait(100);
@@ -257,7 +257,7 @@ TEST_F(PatternTaskTest, BeginsAnewWhenAllIsPutBackUnlessThatIsTakenBack) {
   order(EventKind::PushTakenBack);
   EXPECT_EQ(score().undos, 1U);
   EXPECT_EQ(score().strokes, 1U);
-  // the particles are again where two strokes had pushed them, and the clock of those goes on
+  // the particles are back at the places after two strokes, and the clock of those continues
   order(EventKind::PushTakenBack);
   tick(kHighM);
   EXPECT_EQ(score().strokes, 2U);

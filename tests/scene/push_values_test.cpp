@@ -73,7 +73,7 @@ TEST(PushValues, AreRefusedWithTheReason) {
   EXPECT_THAT(refused->text, HasSubstr("is too soft for spheres that stick to the tip"));
 }
 
-// Each setting changes its own numbers alone, and its first value none.
+// Each setting changes only its own numbers, and its first value changes none.
 TEST(PushValues, ChangeTheirOwnNumbersAlone) {
   const auto gold = shared("gold-row");
   const auto with = [&](PushSetting setting, std::uint16_t value) {
@@ -147,7 +147,7 @@ TEST(PushValues, AreRefusedWithTheirOwnReasons) {
   EXPECT_FALSE(scene::differs(*shared("tube-and-electrodes"), PushSetting::Medium, 1));
 }
 
-// So that a picture of a recording has words and sources whichever settings were used.
+// Pictures of recordings need words and sources for all settings.
 TEST(PushValues, LeaveASetOfTheAssetsKnown) {
   const PushSettings used{.tool = PushTool::Grip, .law = 2, .lever = 4, .tip = 3, .medium = 1};
   for (const char* name : {"gold-row", "pick-and-place"}) {

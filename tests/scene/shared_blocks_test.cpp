@@ -66,7 +66,7 @@ TEST(SharedBlocks, ThatAreImplausibleAreDroppedAndCounted) {
   servo.push(TipEvent{.kind = static_cast<afm::physics::EventKind>(0)});
   servo.push(TipEvent{.kind = afm::physics::EventKind::JumpToContact, .material = 3});
   EXPECT_FALSE(renderer.pop_event());
-  // what comes after a bad sample is still found
+  // events after a bad sample are still found
   servo.push(TipSample{.tip = {.force_n = kNan}});
   servo.push(TipSample{.tick = 8});
   EXPECT_EQ(renderer.pop_sample()->tick, 8U);
@@ -174,7 +174,7 @@ TEST(SharedParticles, AreRefusedWithAReason) {
             "the size or the threshold of the particles in a hand is impossible");
 }
 
-// One after the other, each number of a block made NaN; returns how many it has.
+// Makes each number of a block NaN in turn; returns how many there are.
 template <class Block>
 int expect_every_number_is_checked(const SharedModel& model) {
   const Block good{};
@@ -242,7 +242,7 @@ TEST(SharedContact, WhoseHeightFieldIsNotThereLiesOnAPlane) {
   }
 }
 
-// Each friction with each law, and what a law of force must have for it.
+// Each friction with each law, and the properties that a law of force must have for it.
 TEST(SharedContact, HasFrictionWhereItsLawOfForceHasWhatItNeeds) {
   using namespace afm::physics;
   const Pressure modulus(1e9), rigid(std::numeric_limits<double>::infinity());

@@ -49,12 +49,12 @@ TEST(SoftSample, TheShippedOneHasTheNumbersOfTheCases) {
   EXPECT_NEAR(largest_load(*set).si, 100e-9, 1e-15);
   EXPECT_EQ(set->sources.size(), 11U);
   for (const SourcedValue& value : set->sources) EXPECT_FALSE(value.source.empty()) << value.key;
-  // no recording of particles is taken for it
+  // no recording of particles is mistaken for it
   const auto shared = std::make_unique<const SharedParticles>(shared_particles(*set));
   EXPECT_EQ(shared->count, 0U);
 }
 
-// Every stroke of the letters marks, and no way between two of them.
+// Every stroke of the letters marks, but no path between two of them.
 TEST(SoftSample, WritesLetters) {
   const auto set = load_particle_set(support::source("assets/particles/write-afm.toml"));
   ASSERT_TRUE(set) << set.error().message;

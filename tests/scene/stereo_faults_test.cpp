@@ -115,7 +115,7 @@ EyeView on_axis(const Viewing& viewing, std::size_t eye) {
   return view;
 }
 
-// Both cameras look at the middle of the wall.
+// View of cameras that both point at the middle of the wall.
 EyeView toed_in(const Viewing& viewing, std::size_t eye) {
   const Screen& s = viewing.screen;
   const glm::dvec3 up = glm::normalize(s.upper_left - s.lower_left);
@@ -146,7 +146,7 @@ TEST(StereoFaults, EveryWrongProjectionIsNoticed) {
 
 // ---- scale: the scene is scaled about a point of the wall, the room stays ----
 
-// Where the eyes are when the scene is shown `scale` times as large.
+// Positions of the eyes if the scene is shown `scale` times as large.
 using Eyes = std::function<std::array<glm::dvec3, 2>(const HeadPose&, double ipd_m, double scale)>;
 
 // However large the scene is shown, far away the images are as far apart on the wall as the eyes are.
@@ -172,7 +172,7 @@ TEST(StereoFaults, EyesThatGrowWithTheSceneAreNoticed) {
       scale_violations([&](const HeadPose& head, double ipd_m, double scale) { return both(head, ipd_m * scale); }), 0);
 }
 
-// ---- layouts: which pixel shows what ----
+// ---- layouts: contents of each pixel ----
 
 using Layout = std::function<PixelSource(StereoMode, glm::uvec2 picture, glm::uvec2 pixel, glm::ivec2 screen_px)>;
 
@@ -204,7 +204,7 @@ int missing_pixels(const Layout& layout) {
   return violations;
 }
 
-// Moving a window leaves the eye of every pixel of the screen as it is.
+// Counts the pixels of the screen whose eye changes when the window moves; 0 is right.
 int wandering_parities(const Layout& layout) {
   int violations = 0;
   for (const StereoMode mode : {StereoMode::Row, StereoMode::Column, StereoMode::Checkerboard}) {

@@ -50,7 +50,7 @@ TEST(Sweep, GoesThereAndBackAcrossItsWay) {
     ASSERT_LE(std::abs(aside_m), 50e-9 + 1e-15) << i;
     const double aside_by_m = aside_m - before_aside_m;
     if (std::abs(aside_by_m) > 0.05e-9 && (aside_by_m > 0.0) != to_the_left) {
-      // at a side, one spacing farther on than the time before
+      // at the side, one spacing farther than the last time
       EXPECT_NEAR(std::abs(before_aside_m), 50e-9, 0.11e-9) << i;
       EXPECT_NEAR(ahead_m, std::min(++turns, 13) * 50e-9 / 13.0, 0.11e-9) << i;
       to_the_left = !to_the_left;
@@ -78,7 +78,7 @@ class SweptSphere : public testing::Test {
 
   Sideways<Length> end() const { return play(set_, {.rate = physics::Frequency(1000.0)}).at[0].position; }
 
-  // of the axes of tip and sphere at z = 0 (M1)
+  // Distance of the axes of tip and sphere at z = 0 (M1).
   double rho_m() const {
     const double sine = std::sin(set_.setup.tip.half_angle_rad), cosine = std::cos(set_.setup.tip.half_angle_rad);
     const double tip_m = set_.setup.tip.radius.si, sphere_m = set_.setup.species[0].contact.tip_radius.si;
@@ -131,7 +131,7 @@ TEST(Sweep, OfTheShippedSetLeavesARow) {
   EXPECT_EQ(played.lagging, 0U);
   ASSERT_EQ(played.at.size(), 7U);
   for (const auto& place : played.at) {
-    // in front of the last line, by the distance of the axes
+    // in front of the last line by the distance of the axes
     EXPECT_NEAR(place.position.x.si, 320.25e-9, 0.1e-9);
     EXPECT_LE(std::abs(place.position.y.si), 250e-9);
   }

@@ -24,7 +24,7 @@ std::string dotted(int parts) {
   return key;
 }
 
-// Each of these ended the program: 100 kB are enough for the stack.
+// Each of these keys once ended the program: 100 kB suffice to fill the stack.
 TEST(TomlFile, RefusesKeysThatWouldFillTheStack) {
   const std::string deep = dotted(50'000);
   for (const std::string& text : {deep + " = 1", "[" + deep + "]", "[[" + deep + "]]", "b = { " + deep + " = 1 }",

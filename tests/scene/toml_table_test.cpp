@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 using Read = std::function<void(const TomlTable&)>;
 
-// What is said about a file whose root `read` reads; "read" if nothing is.
+// Message about a file whose root is read by `read`; "read" if there is none.
 std::string outcome(const std::string& text, const Read& read) {
   const support::ScratchFolder folder;
   const auto done = read_toml("test file", folder.write("a.toml", text), [&](const toml::table& root) {

@@ -63,7 +63,7 @@ struct Written {
 
 Written desk() { return {{-0.2985, 0.12, 0}, {0.2985, 0.12, 0}, {-0.2985, 0.456, 0}, {0, 0.34, 0.65}, {}, {}, {}}; }
 
-// Every preset is meant as it is written.
+// Every preset is intended as written.
 TEST(WallDoubts, ArisesForNoPreset) {
   std::size_t presets = 0;
   for (const auto& entry : std::filesystem::directory_iterator(support::source("assets/walls"))) {

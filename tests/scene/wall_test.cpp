@@ -95,7 +95,7 @@ TEST_P(EyesRow, FollowTheHeadsPositionAndOrientation) {
 
 INSTANTIATE_TEST_SUITE_P(Stereo, EyesRow, ::testing::ValuesIn(test::stereo_cases("eyes")), case_name);
 
-// Where a point appears on the wall, in pixels from its upper left corner.
+// Place of a point on the wall, in pixels from its upper left corner.
 glm::dvec2 pixel(const Screen& screen, const glm::dvec3& eye, const glm::dvec3& point, double width, double height) {
   const auto view = off_axis_view(screen, eye, DepthConvention::VulkanReversedInfinite, 0.1, 0.0);
   const glm::dvec4 clip = view.value().projection * view.value().view * glm::dvec4(point, 1.0);

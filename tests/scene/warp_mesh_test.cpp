@@ -82,7 +82,7 @@ TEST(WarpMesh, TakesTheOutputsAspectOrItsOwnLargestX) {
   EXPECT_EQ(read(text, 2.0).value().node(0, 0).output, glm::dvec2(0.25, 1.0));
 }
 
-// In x, y as in u, v: both ways to write a mesh move the picture alike.
+// In x, y as in u, v: both ways to write a mesh move the picture in the same way.
 TEST(WarpMesh, MayBendTheNodesOrTheTexture) {
   const auto by_texture = read(regular(5, 5, 1.0, [](double x, double y) -> std::array<double, 3> {
                             return {0.5 * (0.5 * x + 1.0), 0.5 * (y + 1.0), 1.0};

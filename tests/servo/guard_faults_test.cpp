@@ -224,7 +224,7 @@ class Chain {
     LiveRenderer renderer(side);
     side.store(scene::Selection{.material = kMica, .revision = 1});
     if (!haply_ && !renderer.hold_attached()) ::_exit(1);
-    // as the program, which looks for its servo's end in each frame
+    // like the program, which looks for its servo's end in each frame
     while ((*servo)->alive()) {
       renderer.beat();
       wait_a_little();
@@ -309,7 +309,7 @@ support::Timed time_of_force(Chain& chain, const Faults& faults, bool waits_for_
   return seen;
 }
 
-// Each bound is doubled, as the others of real processes are.
+// Expects a release within doubled bounds, as in other tests of real processes.
 void expect_release(bool haply, const Faults& faults) {
   SCOPED_TRACE(fmt::format("{} {}", haply ? "haply" : "simulated", text_of(faults)));
   const Table table(haply);

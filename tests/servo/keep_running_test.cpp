@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 
 class KeepRunning : public ::testing::Test {
  protected:
-  // A program that notes each of its starts and then does what `end` says.
+  // Runs a program that notes each of its starts and then performs `end`.
   core::Result<void> run(const std::string& end, const KeepLimits& limits = {}) {
     return keep_running("/bin/sh", {"-c", "echo started >> " + starts() + "; " + end}, limits);
   }
@@ -71,7 +71,7 @@ TEST_F(KeepRunning, WaitsForAProgramThatStartsSlowlyAndForOneThatBeats) {
   EXPECT_EQ(times(), 1);
 }
 
-// In a separate process, which is killed.
+// The keeper is a separate process, which is killed.
 TEST_F(KeepRunning, LeavesNoProgramWithoutItsKeeper) {
   const pid_t keeper = ::fork();
   if (keeper == 0) {

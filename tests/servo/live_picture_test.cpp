@@ -174,7 +174,7 @@ TEST(LivePicture, IsMeasuredAnewWhenAllParticlesArePutBack) {
   expect_same(pushed.session());
 }
 
-// The picture of each session as it was live, also of one that begins with an old picture.
+// Each session's picture is as it was live, even one that begins with an old picture.
 TEST(LivePicture, IsRecordedAndDrawnAgainBitForBit) {
   Pushed pushed(2);
   pushed.recording.run(30'000);

@@ -26,7 +26,7 @@ TEST(ReachedPlaces, LeadBackThroughThePushesOfTheSession) {
   EXPECT_FALSE(places.take_back_to(9)) << "made before the session";
 }
 
-// A push from 1 to 2 before the session; in it all are put back to 1, which is taken back, and then that push, too.
+// A push from 1 to 2 before the session, which puts all back to 1, takes that back, and then takes back the push, too.
 TEST(ReachedPlaces, AreNotLedAstrayByAPlaceReachedAnotherWay) {
   ReachedPlaces places = at_rest_in_turn({2, 1});
   EXPECT_TRUE(places.take_back_to(2));

@@ -250,7 +250,7 @@ TEST(ReplayOfParticles, IsThatOfTheFile) {
   EXPECT_EQ(loaded->particles->set.count, 3U);
   expect_same(*loaded);
 
-  // without particles, the version of before
+  // no particles: the version from before them
   session.particles.reset();
   ASSERT_TRUE(save_session(session, path));
   EXPECT_EQ(core::read_beginning(path, 5).value(), "AFMS\x06");
@@ -325,7 +325,7 @@ TEST(ReplayOfParticles, KeepsTheDirectionsOfRods) {
     EXPECT_EQ(pose.rod, 1U);
     EXPECT_EQ(scene::digest_of(session.particles->pages, 1), session.samples.front().push.digest);
     expect_same(session);
-    // another direction is another digest, and another replay
+    // another direction has another digest, and another replay
     RecordedSession turned = session;
     scene::set_turn(turned.particles->pages[0].poses[0], physics::half_turn(1.4));
     EXPECT_NE(scene::digest_of(turned.particles->pages, 1), session.samples.front().push.digest);

@@ -75,7 +75,7 @@ TEST(ReplayOfPlans, GivesEveryBitAgainOfAHandThatAGrooveGuides) {
   ASSERT_TRUE(then) << then.error().message;
   EXPECT_EQ(then->plan, session.samples[1500].plan);
 
-  // another plan is another force
+  // another plan gives another force
   RecordedSession other = *loaded;
   for (scene::TipSample& sample : other.samples) {
     if (sample.plan.guided != 0) sample.plan.to_m[1] += 1e-9;

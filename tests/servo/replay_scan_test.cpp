@@ -26,7 +26,7 @@ RecordedSession saved_and_loaded(const RecordedSession& session) {
   return std::move(*loaded);
 }
 
-// With frames that stay away and a path that jumps.
+// A scan with missing frames and a path that jumps.
 TEST(Replay, GivesAHandThatAScanLeadsAgain) {
   Recording recording;
   recording.choose(test::kMica);

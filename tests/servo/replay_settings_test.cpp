@@ -31,7 +31,7 @@ void push(Recording& recording, double beside_m, double to_m = 0.020) {
   }
 }
 
-// Another law, lever, tip and medium: a session each, stored with the numbers that were felt.
+// Another law, lever, tip and medium: a session each, stored with the numbers in use.
 TEST(ReplayOfSettings, GivesEveryBitAgain) {
   Recording recording(test::model_with_particles());
   const auto feel = [&](const scene::PushSettings& settings, double beside_m) {

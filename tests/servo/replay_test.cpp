@@ -244,7 +244,7 @@ TEST(Replay, FindsOneBitThatIsNotTheSame) {
   EXPECT_EQ(replay(session)->first_event->quantity, "count");
 }
 
-// Where each number that the servo computed lies in a record.
+// Offsets of the numbers in a record that the servo computes.
 template <class Record>
 std::vector<std::pair<std::string, std::ptrdiff_t>> results_of(const Record& record) {
   std::vector<std::pair<std::string, std::ptrdiff_t>> results;

@@ -35,7 +35,7 @@ constexpr const char* kPerson =
     "0.0 0 40 0 0\n0.2 0 40 0 1\n0.25 0 40 0 0\n0.3 0 40 0 1\n0.35 0 40 0 0\n0.8 0 40 0 0\n1.1 0 -25 0 0\n1.4 0 40 0 "
     "0\n";
 
-// For one test's child processes.
+// Environment of one test's child processes.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }

@@ -26,7 +26,7 @@
 #include "haptics/simulated_device.h"
 #include "live_renderer.h"
 
-// Real processes and real time. How long something took is printed and decides nothing.
+// Real processes and real time. Durations are printed and decide nothing.
 namespace servo_process_test {
 
 using namespace afm::scene;
@@ -208,7 +208,7 @@ TEST(ServoProcess, LeavesInGoodOrderAndNoZombieBehind) {
   }));
 }
 
-// The renderer goes on beating: it is the signal that makes it let go, not a hang.
+// The renderer continues its heartbeats: the signal makes it let go, not a hang.
 TEST(ServoProcess, EndsOnSigtermWithZeroAfterReleasingTheHand) {
   EXPECT_TRUE(eventually([&] {
     SharedSegment segment = create_segment();
@@ -331,7 +331,7 @@ TEST(ServoProcess, CountsEveryTickInItsHistograms) {
   }
 }
 
-// Runs a program to its end and returns its exit code and what it said.
+// Runs a program to its end and returns its exit code and its output.
 std::pair<int, std::string> run(std::vector<std::string> arguments) {
   std::string command;
   for (const std::string& argument : arguments) command += "'" + argument + "' ";

@@ -74,7 +74,7 @@ Started start_with(std::optional<rlim_t> priority, std::optional<rlim_t> locked_
   return started;
 }
 
-// What the two limits of this machine grant, they grant without root.
+// Rights granted by this machine's two limits, without root.
 TEST(ServoRights, FollowFromTheTwoLimitsAlone) {
   const rlim_t priority = highest(RLIMIT_RTPRIO);
   const rlim_t locked_bytes = highest(RLIMIT_MEMLOCK);

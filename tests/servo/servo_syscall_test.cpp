@@ -82,7 +82,7 @@ class FilteredServo {
   FilteredServo& operator=(const FilteredServo&) = delete;
   ~FilteredServo() { ::munmap(told_, sizeof(Told)); }
 
-  // Waits for its end and returns the status as waitpid() has it.
+  // Waits for the process to end and returns its status as from waitpid().
   int end() {
     int status = -1;
     ::wait4(pid_, &status, 0, &after_);
@@ -117,7 +117,7 @@ TEST(ServoSystemCalls, AreToSleepAndNothingElseOverAWholeCycle) {
   EXPECT_EQ(WEXITSTATUS(status), 0);
   EXPECT_GT(servo.told().ticks, 1000U);
   EXPECT_EQ(servo.after().ru_majflt, servo.told().before.ru_majflt);
-  // it gives the processor up once a tick, to sleep
+  // at most one voluntary switch per tick, to sleep
   const long gave_up = servo.after().ru_nvcsw - servo.told().before.ru_nvcsw;
   EXPECT_LE(gave_up, static_cast<long>(servo.told().ticks) + 1);
 }

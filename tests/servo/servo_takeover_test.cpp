@@ -98,7 +98,7 @@ class Predecessor {
     if (servo_ > 0) ::waitpid(servo_, nullptr, 0);
   }
 
-  // Once its servo has ended: the exit code.
+  // Exit code of the servo, once it has ended.
   std::optional<int> servo_exit_code() {
     int status = -1;
     if (servo_ < 0 || ::waitpid(servo_, &status, WNOHANG) != servo_) return std::nullopt;
@@ -171,14 +171,14 @@ TEST_F(ServoTakeover, GoesOnWithTheServoOfADeadRenderer) {
   EXPECT_EQ((*link)->tip().material, test::kGold);
   EXPECT_EQ((*link)->tip().servo_state, scene::ServoState::Disarmed);
 
-  // and the successor is heard: its scripts and choices count from one, like anybody's
+  // the successor receives messages: scripts and choices count from one, as with any renderer
   (*link)->choose(test::kSiliconNitride);
   (*link)->script({.target_m = {0.0, 0.066, 0.0}, .duration_s = 0.05, .revision = 1});
   EXPECT_TRUE(until(**link, [](const scene::TipState& tip) {
     return tip.material == test::kSiliconNitride && tip.acknowledged.hand_script == 1 &&
            std::abs(tip.hand.position_m[1] - 0.066) < 0.002;
   }));
-  // what the predecessor had changed is as loaded again: mica pulls off where mica does
+  // the predecessor's change is undone: mica pulls off where mica should
   (*link)->choose(test::kMica);
   EXPECT_TRUE(until(**link, [](const scene::TipState& tip) { return tip.material == test::kMica; }));
   const double z_joc_m = 0.050 / (*link)->tip().active.scale.hand_m_per_m;
@@ -281,7 +281,7 @@ TEST_F(ServoTakeover, IsNotHeldUpByOneWhoDoesNotAnswer) {
   predecessor.stop_servo();
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < 8; ++i) EXPECT_FALSE(visit_servo(socket));
-  // one second for each that the queue takes
+  // one second for each connection that the queue accepts
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(12));
 }
 

@@ -41,7 +41,7 @@ constexpr auto kReleaseBound = milliseconds(2 * (kWatchdogReleaseMs + 20));
 constexpr auto kKillBound = milliseconds(2 * kWatchdogKillMs);
 constexpr auto kSilenceBound = milliseconds(2 * 250);
 
-// What the processes that begin within its life write to stderr.
+// Output on stderr of the processes that start during the object's lifetime.
 class CapturedErrors {
  public:
   CapturedErrors() : file_(::memfd_create("stderr", MFD_CLOEXEC)), before_(::dup(STDERR_FILENO)) {
@@ -107,7 +107,7 @@ class ServoWatchdog : public testing::Test {
     });
   }
 
-  // What the service holds: the newest force that it was sent.
+  // Newest force that the service received.
   double held_n() {
     const auto forces = service.forces();
     if (forces.empty()) return 0.0;
@@ -184,7 +184,7 @@ TEST_F(ServoWatchdog, IsMissedByItsServoWhenItIsStopped) {
   EXPECT_TRUE(watchdog_gone());
 }
 
-// As by Ctrl-S in the terminal, or by a pager that waits.
+// A blocked log, as after Ctrl-S in the terminal, or with a pager that waits.
 TEST_F(ServoWatchdog, IsMissedInTimeWhileNobodyReadsTheLog) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
@@ -203,7 +203,7 @@ TEST_F(ServoWatchdog, IsMissedInTimeWhileNobodyReadsTheLog) {
   ::dup2(before.get(), STDERR_FILENO);
 }
 
-// Only a kill and a stop reach it.
+// Only a kill and a stop affect it.
 TEST_F(ServoWatchdog, StaysWhateverSignalItGets) {
   ASSERT_NO_FATAL_FAILURE(start());
   for (const int number : {SIGHUP, SIGINT, SIGTERM, SIGQUIT, SIGALRM, SIGUSR1}) ::kill(watchdog, number);

@@ -73,7 +73,7 @@ TEST(SessionRecorder, KeepsNothingOfTheTimeBeforeASession) {
   EXPECT_TRUE(recorder.session().events.empty());
 }
 
-// What a stream of these updates gives: "s" and "e" with their times, in order.
+// Order of a stream of these updates: "s" and "e" with their times.
 std::string order_of(const std::vector<ServoClient::Update>& updates) {
   TipStream stream;
   std::string order;
@@ -104,7 +104,7 @@ TEST(TipStream, GivesAnEventJustBeforeTheSampleAtOrAfterIt) {
   both.events = {event(2), event(3)};
   EXPECT_EQ(order_of({both}), "s1 e2 s2 e3 s3 ");
 
-  // it waits for the sample of its tick
+  // an event that must wait for the sample of its tick
   ServoClient::Update early;
   early.samples = {at(1)};
   early.events = {event(3)};
@@ -113,7 +113,7 @@ TEST(TipStream, GivesAnEventJustBeforeTheSampleAtOrAfterIt) {
   EXPECT_EQ(order_of({early, late}), "s1 s2 e3 s3 ");
   EXPECT_EQ(order_of({early, {}, late}), "s1 s2 e3 s3 ");
 
-  // neither of no material
+  // a sample without a material
   ServoClient::Update none;
   none.samples = {at(1, -1), at(2)};
   none.events = {event(1, -1), event(2)};

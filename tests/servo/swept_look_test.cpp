@@ -48,7 +48,7 @@ class Looked {
     model.particles.level = {.level = level, .seed = 5};
     return model;
   }
-  // As the wall sends it.
+  // Lead as sent by the wall.
   scene::ScanLead lead() const {
     const auto square = recording.picture ? recording.picture->square() : std::nullopt;
     if (!square || load_pn == 0) return {};
@@ -115,7 +115,7 @@ TEST(SweptLook, IsTakenBackAndReplayedAndStoredBitForBit) {
   EXPECT_EQ(then->picture->known, looked.now().known);
 }
 
-// Another material in the middle of a look: its session begins with particles that rest.
+// Another material in the middle of a look: its session begins with particles at rest.
 TEST(SweptLook, EndsWithItsMaterial) {
   Looked looked(1);
   looked.look(kHardPn, 1800);

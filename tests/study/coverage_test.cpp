@@ -20,7 +20,7 @@ namespace coverage_test {
 constexpr int kPeople = 1000;
 constexpr std::size_t kTrials = 40;
 
-// The same numbers from every standard library.
+// Random numbers that are the same with every standard library.
 class Chance {
  public:
   explicit Chance(unsigned seed) : random_(seed) {}

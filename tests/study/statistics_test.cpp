@@ -232,7 +232,7 @@ TEST(EffectSize, HasTheIntervalOfTheNoncentralT) {
   EXPECT_NEAR(0.5 * (of_d.low + of_d.high), 0.5, 0.02);
 }
 
-// The hand-written study of two measures, whose correction changed nothing when it was for each measure.
+// The hand-written study of two measures, whose correction once changed nothing because it was done per measure.
 TEST(Holm, CorrectsTestsThatStandSideBySide) {
   TestResult first{.name = "a", .p = 0.0204, .effect = {}}, second{.name = "b", .p = 0.169, .effect = {}};
   TestResult without_p{.name = "c", .effect = {}};

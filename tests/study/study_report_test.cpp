@@ -109,7 +109,7 @@ TEST_F(StudyReport, KeepsPracticeAndUnansweredTrialsApart) {
               HasSubstr("10 counted, 3 of practice (left out), 1 without an answer (left out)"));
 }
 
-// Two people felt all, one nothing; what a fourth one felt is not known.
+// Two people felt everything, one nothing; the feeling of a fourth is unknown.
 TEST_F(StudyReport, LeavesOutAndCountsWhatWasNotFelt) {
   const auto events = [](unsigned seed, const char* condition) {
     test::SimulatedEvents made(seed);

@@ -30,7 +30,7 @@ glm::dmat4 placed(const glm::dvec3& at, double size) {
   return glm::scale(glm::translate(glm::dmat4(1.0), at), glm::dvec3(size));
 }
 
-// The paper's mica curve in rough strokes: enough to see what the panel does with one.
+// The paper's mica curve in rough strokes, enough to check how the panel draws one.
 render::PlotCurve sample_curve(double adhesion_nn, double z_off_nm, const glm::vec3& color, const std::string& label) {
   render::PlotCurve curve;
   curve.label = label;

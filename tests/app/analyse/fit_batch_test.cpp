@@ -212,7 +212,7 @@ TEST(FitBatch, OfAFewCurvesOnALargeGridDrawsTheOthersEmpty) {
   EXPECT_EQ(std::count_if(moduli.begin(), moduli.end(), [](double pa) { return std::isfinite(pa); }), 6);
 }
 
-// A stage that is not where the pattern says: two curves at one pixel, and one beside the grid.
+// Two curves at one pixel, and one outside the grid.
 TEST(FitBatch, NamesTheCurvesThatAreNotOnTheMap) {
   const support::ScratchFolder folder;
   auto entries = test::jpk_map([](std::size_t) { return test::hertz_curve(200); });

@@ -57,7 +57,7 @@ class ManyFiles : public ::testing::Test {
     }
   }
 
-  // Which fault a file has; kFaulty: none. They are spread over all files.
+  // Fault of a file; kFaulty: none. The faults are spread over all files.
   static std::size_t fault_of(std::size_t file) {
     constexpr std::size_t kEvery = kFiles / kFaulty;
     return file % kEvery == 0 && file / kEvery < kFaulty ? file / kEvery * 7 % kFaulty : kFaulty;

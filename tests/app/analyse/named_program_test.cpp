@@ -131,7 +131,7 @@ TEST(NamedProgram, IsInEveryFile) {
   EXPECT_THAT(core::read_file(folder.file("fits/modulus.svg")).value(), HasSubstr(name));
 }
 
-// BIDS allows no header in a table: the JSON beside it has what others have there.
+// BIDS allows no header in a table: the JSON file beside it describes the program instead.
 TEST(NamedProgram, IsBesideTheTablesOfAStudyWithTheSamples) {
   const support::ScratchFolder folder;
   const std::string lesson = "lesson " + support::source("assets/lessons/three-materials.toml");
@@ -154,7 +154,7 @@ TEST(NamedProgram, IsBesideTheTablesOfAStudyWithTheSamples) {
   EXPECT_EQ(tables, 2U);
 }
 
-// A text of a picture, as the file has it: key, end of the key, not compressed, no language, the text.
+// A text of a PNG picture as stored: key, end of the key, not compressed, no language, the text.
 std::string text_in_png(const std::string& key, const std::string& text) { return key + std::string(5, '\0') + text; }
 
 TEST(NamedProgram, IsInEveryPictureWithItsParameters) {

@@ -35,7 +35,7 @@ class ClusterFailures : public ClusterWall {
   std::unique_ptr<support::LiveProgram> node(const std::string& name) const {
     return start(node_command(name, "127.0.0.1"));
   }
-  // With a force on the hand.
+  // Wall with a force on the hand.
   std::unique_ptr<support::LiveProgram> felt_wall(const std::vector<std::string>& more = {}) const {
     std::vector<std::string> command = master_command();
     command.insert(command.end(), {"--haptics", "sim"});
@@ -75,7 +75,7 @@ TEST_F(ClusterFailures, ANodeThatStopsForFiveSecondsAndOneThatIsKilledAreLeftOut
   expect_orderly_end(*hand);
 }
 
-// What the hand felt is in the session: a tick for each millisecond, none of which let go.
+// The session contains all that the hand felt: a tick for each millisecond, none of which released the hand.
 TEST_F(ClusterFailures, AKilledNodeIsNotFelt) {
   const auto left = node("left"), right = node("right");
   const auto hand = felt_wall({"--record", folder_.file("kept"), "--material", "mica"});
@@ -157,7 +157,7 @@ TEST_F(ClusterFailures, NodesOutliveTheirMasterAndFollowTheNext) {
   EXPECT_EQ(hand->ends(), 128 + SIGKILL);
   hand = start(master_command());
   expect_both_shown(*hand);
-  // and one with another wall
+  // and one that shows another wall
   hand->signal(SIGKILL);
   EXPECT_EQ(hand->ends(), 128 + SIGKILL);
   std::string other = core::read_file(folder_.file("wall.toml")).value();

@@ -100,7 +100,7 @@ TEST_F(ClusterNetworkTest, ADelayOfOneNodeIsMeasuredAndWaitedFor) {
   const auto result = measure(300);
   EXPECT_THAT(result.at("lost_samples"), Each(0));
   EXPECT_GT(result.at("round_trip_s").at("max").get<double>(), 0.002);
-  // all machines have one clock here; half of what the two ways may differ by
+  // all machines share one clock here, so the result is at most half of the difference of both directions
   EXPECT_THAT(result.at("clock_offset_s"), SizeIs(kNodes));
   for (const double offset_s : result.at("clock_offset_s")) EXPECT_LT(std::abs(offset_s), 0.001);
 }

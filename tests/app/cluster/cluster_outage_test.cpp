@@ -34,7 +34,7 @@ constexpr int kMinutes = 10;
 // In the usual minute. What leaks grows in every minute, by this much if each frame leaves 700 bytes. What the C
 // library keeps of a driver's threads comes in steps, of up to 10 MB: one in 83 minutes, one in ten beside builds.
 constexpr double kMostGrowthKb = 512;
-// As the system lists them: ours, and Cyclone's for receiving, timed events, delivery and its own tidying.
+// Names of threads as listed by the system: ours, and Cyclone's for receiving, timed events, delivery and cleaning up.
 constexpr std::array kNetworkThreads{"wall network", "recv", "tev", "dq.", "gc"};
 
 class ClusterOutage : public ClusterCable {
@@ -156,7 +156,7 @@ Consumption consumption_of(pid_t process) {
   return now;
 }
 
-// The median of what comes from one minute to the next.
+// Median growth from one minute to the next.
 double usual_growth_kb(const std::vector<double>& resident_kb) {
   std::vector<double> grown(resident_kb.size());
   std::adjacent_difference(resident_kb.begin(), resident_kb.end(), grown.begin());
@@ -169,7 +169,7 @@ TEST_F(ClusterOutage, TenMinutesOfAWallTakeNoMemory) {
   const auto right = node("right", 2);
   const auto hand = begin();
   ASSERT_TRUE(hand);
-  // until every panel has been drawn and every buffer has grown
+  // time for every panel to be drawn and every buffer to grow
   std::this_thread::sleep_for(seconds(60));
   const std::array programs{hand.get(), left.get(), right.get()};
   std::array<Consumption, 3> before;

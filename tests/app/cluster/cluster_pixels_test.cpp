@@ -91,13 +91,13 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
   const auto rows_differ = [&] {
     const render::Image seen = display.screenshot();
     const std::size_t half = seen.rgba.size() / 2;
-    // a wall that shows nothing would agree too
+    // empty walls would agree, too
     const bool drawn =
         std::count_if(seen.rgba.begin(), seen.rgba.end(), [](int byte) { return byte > 150 && byte < 255; }) > 500;
     return !drawn || !std::equal(seen.rgba.begin(), seen.rgba.begin() + static_cast<std::ptrdiff_t>(half),
                                  seen.rgba.begin() + static_cast<std::ptrdiff_t>(half));
   };
-  // one after the other on the moving wall, with each stereo mode that windows can show
+  // keys pressed one after the other on the moving wall, with each stereo mode that windows can show
   const std::vector<std::string> keys{"1",   "v",   "v F8", "v s", "v F2", "v Left", "v Up", "v g",  "v g",  "v p",
                                       "v p", "v i", "v",    "v j", "v j",  "v a",    "v a",  "v F1", "v F1", "v 2"};
   ASSERT_EQ(keys.size(), 20U);
@@ -117,14 +117,14 @@ TEST_F(ClusterPixels, SixOutputsOnThreeNodesAreThoseOfOneMachineInEveryMode) {
     EXPECT_THAT(hand.said(), HasSubstr("node " + std::string(name) + ": "));
   }
   EXPECT_THAT(hand.said(), HasSubstr(" 0 built otherwise"));
-  // those two need other screens
+  // other modes need other screens
   for (const scene::StereoModeTraits& mode : scene::kStereoModes) {
     if (mode.mode == scene::StereoMode::Dual || mode.mode == scene::StereoMode::QuadBuffer) continue;
     EXPECT_THAT(hand.said(), HasSubstr("stereo: " + std::string(mode.name) + "\n"));
   }
 }
 
-// The pixels of an X server as they are now, without asking it.
+// Current pixels of an X server, read without a request.
 class MappedScreen {
  public:
   explicit MappedScreen(const std::string& dump) {
@@ -141,7 +141,7 @@ class MappedScreen {
   MappedScreen& operator=(const MappedScreen&) = delete;
   ~MappedScreen() { ::munmap(const_cast<unsigned char*>(whole_.data()), whole_.size()); }
 
-  // Of the upper left part; what is read while it changes has a digest that no other screen has.
+  // Digest of the upper left part. One that is read during a change differs from those of all other screens.
   std::uint64_t digest(std::uint32_t width, std::uint32_t height) const {
     std::uint64_t all = 0;
     for (std::uint32_t y = 0; y < height; ++y) {
@@ -151,7 +151,7 @@ class MappedScreen {
     return all;
   }
 
-  // Whether nothing but the background is in that part: text and panels are far from grey.
+  // True if that part shows only the background, which is grey, unlike text and panels.
   bool is_blank(std::uint32_t width, std::uint32_t height) const {
     for (std::uint32_t y = 0; y < height; ++y) {
       for (std::uint32_t x = 0; x < width; ++x) {
@@ -185,7 +185,7 @@ class StatesOfScreens {
     order_[machine].push_back(state);
     first_[state][machine].emplace_back(at);
   }
-  // Those that each screen has shown exactly once, as each of them had them in order.
+  // Digests that each screen has shown exactly once, in the order in which all of them did.
   std::vector<std::uint64_t> common(std::size_t machine) const {
     std::vector<std::uint64_t> all;
     for (const std::uint64_t state : order_[machine]) {
@@ -217,7 +217,7 @@ void print_skew(const char* what, const std::vector<double>& skews_ms) {
               skews_ms.size(), p.p50, p.p99, p.max);
 }
 
-// The machine with the hand feels mica; what appears on the three screens is compared for some seconds.
+// Lets the hand feel mica, and compares the pictures of the three screens for some seconds.
 void ClusterPixels::watch(const support::VirtualDisplay& left_display, const support::VirtualDisplay& right_display,
                           const char* what, const std::string& fault_of_master) const {
   std::vector<std::string> command = master_command();
@@ -267,7 +267,7 @@ TEST_F(ClusterPixels, EveryScreenShowsTheSameFramesInTheSameOrder) {
   watch(left_display, right_display, "frame by frame");
 }
 
-// One that is small, and one that is large and takes longer to draw: what all show is blank or not.
+// One small screen, and one that is large and takes longer to draw: all are blank together.
 TEST_F(ClusterPixels, ScreensOfOtherSizesBecomeBlankWithTheOthers) {
   constexpr std::array<OutputPlace, kMachines> kPlaces{
       {{0, kWidth, kHeight}, {0, kWidth / 2, kHeight / 2}, {0, 3 * kWidth, 3 * kHeight}}};

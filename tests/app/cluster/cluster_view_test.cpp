@@ -28,7 +28,7 @@ using ::testing::StartsWith;
 
 class ClusterViewTest : public ClusterWall {
  protected:
-  // With a haptic device that every program finds which looks for one.
+  // Node with a haptic device that would be found by any program that looks for one.
   std::unique_ptr<support::LiveProgram> node(const std::string& name, const std::string& fault = {}) const {
     std::vector<std::string> program = node_command(name, "127.0.0.1");
     if (!fault.empty()) program = test::on_faulty_device(fault, program);
@@ -80,7 +80,7 @@ TEST_F(ClusterViewTest, ShowsOnePictureAndGoesOnWhenANodeIsKilledAndComesBack) {
   const auto hand = start(master_command());
   expect_both_shown(*hand);
 
-  // no servo and no haptic device but the master's
+  // only the master has a servo and a haptic device
   EXPECT_EQ(children_of(left->pid()), "");
   EXPECT_EQ(open_devices_of(left->pid()), "");
   EXPECT_FALSE(has_loaded(left->pid(), support::mock_hd()));
@@ -168,7 +168,7 @@ TEST_F(ClusterViewTest, ShowsALeverThatTapsWithItsDialAndItsChanges) {
   press_at_master("KP_Enter");
   ASSERT_TRUE(hand->says("force off: Stop was pressed")) << hand->said();
   EXPECT_TRUE(all_same()) << hand->said();
-  // its image, with another free amplitude, then another drive
+  // image of the sample, with another free amplitude, then another drive
   press_at_master("i Tab Tab Tab Tab Tab Tab Tab minus");
   ASSERT_TRUE(hand->says("19 nm, 300 kHz")) << hand->said();
   press_at_master("Tab minus");
@@ -239,7 +239,7 @@ TEST_F(ClusterViewTest, FollowsTheSettingsAmongParticles) {
   EXPECT_THAT(hand->said(), Not(HasSubstr("otherwise: ")));
 }
 
-// Junk, another build, and a wall that names what this machine lacks.
+// Descriptions of garbage, of another build, and of a wall that needs something missing on this machine.
 TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown) {
   const auto left = node("left");
   const auto hand = start(master_command());
@@ -260,7 +260,7 @@ TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown)
     ASSERT_TRUE(stray) << stray.error().message;
     ASSERT_TRUE(left->says("another wall was announced, but cannot be shown: ")) << left->said();
   }
-  // it still follows its master
+  // the node still follows its master
   press_at_master("2");
   ASSERT_TRUE(hand->says("chosen: Gold")) << hand->said();
   const auto frames_same = [&] {
@@ -272,7 +272,7 @@ TEST_F(ClusterViewTest, ANodeThatShowsAWallKeepsItWhenADescriptionCannotBeShown)
   EXPECT_EQ(left->ends(), 0) << left->said();
 }
 
-// Both have listened before either was heard.
+// Each master listened before the other could be heard.
 TEST_F(ClusterViewTest, OfTwoMastersOneEndsWithAReason) {
   std::vector<std::unique_ptr<support::LiveProgram>> masters;
   std::vector<std::unique_ptr<support::ScratchFolder>> folders;

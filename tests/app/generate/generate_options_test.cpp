@@ -122,7 +122,7 @@ std::set<std::string> options_of(const std::string& kind) {
 TEST(GenerateOptions, HaveEachItsEffect) {
   const support::ScratchFolder folder;
   int number = 0;
-  // FILE and its truth, or nothing
+  // creates FILE and its truth, or nothing
   const auto made = [&](const std::string& kind, std::string_view options) {
     const std::string file = fmt::format("{}.{}", ++number, kind == "image" ? "gwy" : "h5");
     const auto result = support::run_program(

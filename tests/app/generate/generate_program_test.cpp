@@ -24,7 +24,7 @@
 #include "support/programs/run_touchafm.h"
 #include "support/scratch_folder.h"
 
-// `touchafm generate`: the truth is what `touchafm analyse` finds, and files come with their truth or not at all.
+// `touchafm generate`: `touchafm analyse` finds the truth, and files are written with their truth or not at all.
 namespace afm {
 namespace generate_program_test {
 
@@ -93,7 +93,7 @@ void expect_modulus(const std::vector<Row>& rows, const json& truth) {
   EXPECT_LT(std::abs(sum), 3.0 * std::sqrt(static_cast<double>(rows.size())));
 }
 
-// There is no interval of the contact point: the curves' own scatter judges it.
+// The contact point has no interval, so the scatter of the curves judges it.
 void expect_contact(const std::vector<Row>& rows, const json& truth, double most_spread_m) {
   const double contact_m = truth["curves"][0]["contact_z_m"], count = static_cast<double>(rows.size());
   double mean_m = 0.0, square_m2 = 0.0;
@@ -217,7 +217,7 @@ TEST(Generated, AgainInAnotherSecondIsTheSameBytes) {
   EXPECT_NE(core::read_file(folder.file("a.h5")).value(), core::read_file(other).value());
 }
 
-// Refused in one line, with nothing left.
+// Expects a refusal in one line, with no file left.
 void expect_refusal(const std::string& arguments, const std::string& part, const std::string& name = "curve.h5") {
   const support::ScratchFolder folder;
   const ProgramResult result = run_touchafm("generate " + arguments + " --out " + folder.file(name));
@@ -340,7 +340,7 @@ TEST(Generated, IsNeverWithoutItsTruthWhenItIsKilled) {
   std::size_t pairs = 0, none = 0;
   const int step = support::deep() ? 15 : 60;
   for (const int signal : {SIGTERM, SIGKILL}) {
-    // on a busy machine later, until one has ended
+    // up to later times on a busy machine, until one run has ended
     for (int tenths_ms = 0; tenths_ms < 600 || (pairs == 0 && tenths_ms < 60'000); tenths_ms += step) {
       const support::ScratchFolder folder;
       const std::string file = folder.file("curve.tab");

@@ -38,7 +38,7 @@ using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A variable of the environment of what is started, until the end of this.
+// Variable in the environment of started programs, during the object's lifetime.
 class Variable {
  public:
   Variable(const char* name, const std::string& value) : name_(name) {
@@ -166,7 +166,7 @@ std::vector<double> signal_of(exhibit::HeardEvent event) {
   return thinned(test::channel(samples, 0));
 }
 
-// How alike a part of the sound and a signal are at best: 1, the same but for the volume.
+// Best likeness of a part of the sound to a signal; 1: equal except for the volume.
 double likeness(const std::vector<double>& sound, const std::vector<double>& signal) {
   double best = 0;
   for (std::size_t at = 0; at + signal.size() < sound.size(); ++at) {
@@ -224,7 +224,7 @@ TEST_F(HeardView, GoesThroughALessonFromConsentToItsLastAnswerByEarAndHandAlone)
   EXPECT_THAT(events, Not(HasSubstr("\ttlx-1\t50\t"))) << events;
   EXPECT_THAT(core::read_file(out + "/participants.tsv").value(), HasSubstr("sub-QXWERT\t0\tn/a\tfinished"));
 
-  // the same by sound only, independent of tone and voice
+  // same lesson by sound only, independent of tone and voice
   const std::string kept = out + "/sub-QXWERT/task-a-lesson_session/session-mica.afms";
   const auto session = servo::load_session(kept);
   ASSERT_TRUE(session.has_value()) << session.error().message;
@@ -351,7 +351,7 @@ TEST_F(HeardView, EndsAtOnceWhileTheProgramThatSpeaksHangs) {
 TEST_F(HeardView, LeavesSpeechToAScreenReaderThatRuns) {
   const Variable driver("SDL_AUDIODRIVER", "dummy");
   program("spd-say", "echo \"$@\" >> " + folder_.file("said"));
-  // one process of that name, so that none is left
+  // one process of that name, which must end with the test
   std::filesystem::copy_file("/bin/sleep", folder_.file("orca"));
   support::LiveProgram reader({folder_.file("orca"), "1000"}, "");
   for (int i = 0; i < 500; ++i) {  // time for the process to get its name

@@ -153,7 +153,7 @@ TEST(LessonProgram, LosesAtMostTheRunningTrialWhenItIsKilled) {
   for (int delay_ms = 2; delay_ms < 60 && cut < 3; delay_ms += 2) {
     const std::string study = folder.file("killed-" + std::to_string(delay_ms));
     support::LiveProgram program({support::touchafm(), "lesson", file, "--participant", "sim:5", "--out", study}, "");
-    // it has begun its file
+    // until it has begun its file
     for (int i = 0; i < 2000 && !fs::exists(study + "/" + name); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

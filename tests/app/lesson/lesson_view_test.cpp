@@ -53,7 +53,7 @@ class LessonView : public ::testing::Test {
     const auto done = support::run_program("DISPLAY=" + display_.name() + " xdotool key " + name);
     ASSERT_EQ(done.exit_code, 0) << done.err << " (package xdotool)";
   }
-  // On one of so many targets of the guide, as one eye sees it.
+  // Clicks on this target of the guide, as seen by one eye.
   void click(std::size_t target, std::size_t targets) const {
     exhibit::ExhibitFiles files;
     files.assets_dir = support::source("assets");
@@ -176,7 +176,7 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   ASSERT_TRUE(view.says("First cycle.")) << view.said();
   ASSERT_TRUE(view.says("Second cycle.", std::chrono::minutes(2))) << view.said();
   ASSERT_TRUE(view.says("Which cycle needed more force to let go?", std::chrono::minutes(2))) << view.said();
-  // one of both is half as strong again
+  // one of them is half as strong again
   EXPECT_THAT(view.said(), HasSubstr("pull 0.9001 nN"));
   EXPECT_THAT(view.said(), HasSubstr("pull 0.6000 nN"));
   // a person thinks before the answer; the simulated hand has meanwhile begun the next cycle on the old sample

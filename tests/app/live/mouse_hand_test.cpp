@@ -48,7 +48,7 @@ TEST_F(MouseHandTest, ADragBetweenTwoFramesIsNotLost) {
   EXPECT_NEAR(hand_.wanted_m(), MouseHand::kRestM - 40.0 * kMPerPx, 1e-12);
 }
 
-// As the scanner of an image: down onto the sample, then a drag goes over it, away from the user where it goes up.
+// Use as the scanner of an image: down onto the sample, then a drag over it, in which up means away from the user.
 TEST_F(MouseHandTest, GoesOverTheSampleAsAScanner) {
   hand_.scan(true);
   EXPECT_EQ(hand_.wanted_m(), MouseHand::kOnSampleM);
@@ -65,7 +65,7 @@ TEST_F(MouseHandTest, GoesOverTheSampleAsAScanner) {
   EXPECT_NEAR(hand_.script().target_m[2], 0.0, 1e-12);
 }
 
-// Held beside the button or alone, and the height stays.
+// The key may be held together with the button or alone; the height stays.
 TEST_F(MouseHandTest, GoesOverTheSampleWhileItsKeyIsHeld) {
   button(Kind::ButtonDown, render::MouseButton::Right, 100.0);
   for (int i = 0; i < 100; ++i) frame(150.0);

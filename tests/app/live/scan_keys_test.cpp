@@ -118,7 +118,7 @@ class Visitor {
     for (int i = 0; i < std::abs(keys.times); ++i) panels_.step_marked(keys.times > 0 ? 1 : -1, kGold, nullptr);
   }
 
-  // Until so many lines of a frame are whole; into the next frame, if need be.
+  // Waits until this many lines of a frame are whole, if necessary of the next frame.
   void wait_for_line(std::size_t line) {
     const std::uint32_t frame = scan_.progress().frame + (scan_.row() >= line ? 1 : 0);
     while (scan_.progress().frame < frame || scan_.row() < line) scan_.advance(kFrameS);
@@ -183,7 +183,7 @@ double least_at(const std::function<double(int)>& value) {
   return std::abs(best);
 }
 
-// From the sample, nm.
+// Mean height above the sample, nm.
 double mean_above(const Image& image) {
   return 1e9 * image.mean([&](auto c, auto r) { return image.height_m(0, c, r) - image.place_m(c, r, 0, 0); });
 }
@@ -200,7 +200,7 @@ double flown_share(const Image& image) {
   });
 }
 
-// The median of what is bent from pixel to pixel beyond the sample's own shape, nm: steps of the sample do not matter.
+// Median curvature from pixel to pixel beyond the sample's own shape, nm: steps of the sample do not matter.
 double roughness(const Image& image) {
   std::vector<double> bends_m;
   image.mean([&](auto c, auto r) {
@@ -212,7 +212,7 @@ double roughness(const Image& image) {
   return 1e9 * bends_m[bends_m.size() / 2];
 }
 
-// A number for each artefact: how much of it an image has.
+// Strength of an artefact in an image.
 double shown(const Image& image, ScanArtefact artefact) {
   const double setpoint_n = std::abs(image.scan.choice().setpoint_n);
   switch (artefact) {
@@ -253,7 +253,7 @@ double shown(const Image& image, ScanArtefact artefact) {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-// At most so much in a clean image, and at least so much in one that has it.
+// Largest strength in a clean image, and smallest in one with the artefact.
 struct Bounds {
   ScanArtefact artefact;
   double clean, present;

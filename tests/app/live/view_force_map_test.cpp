@@ -58,7 +58,7 @@ class ViewForceMap : public ::testing::Test {
     xdotool(moves + " mouseup 3");
   }
 
-  // Lifts, switches the force on, and presses the tip onto the sample. Repeats what a busy machine has stopped.
+  // Lifts, switches the force on, and presses the tip onto the sample. Repeats actions stopped by a busy machine.
   bool touch(support::LiveProgram& view) const {
     for (int tries = 0; tries < 10; ++tries) {
       lift(0.130);
@@ -78,7 +78,7 @@ class ViewForceMap : public ::testing::Test {
     return folder_.write("gel.jpk-force-map", test::stored_zip(test::jpk_map(test::sticky_curve)));
   }
 
-  // The moments of a session of the map, drawn again, beside a picture of its window.
+  // Expects moments of a session of the map, drawn again, to match a picture of its window.
   void expect_film(const std::string& session_file, const std::string& map, const render::Image& saved) const {
     const auto session = servo::load_session(session_file);
     ASSERT_TRUE(session) << session.error().message;
@@ -116,7 +116,7 @@ class ViewForceMap : public ::testing::Test {
     EXPECT_THAT(changed.err, HasSubstr(moved + " is not the force map that was felt, or has changed since"));
   }
 
-  // A moment of a session of one pixel has the picture of its map; without the file it is drawn all the same.
+  // Expects a moment of a session of one pixel to show the picture of its map; without the file it is drawn, too.
   void expect_picture_of_map(const std::string& session) const {
     const auto draw = [&](const std::string& more = "") {
       const auto drawn = support::run_program(support::touchafm() + " render --size 320x240 --session " + session +
@@ -252,7 +252,7 @@ TEST_F(ViewForceMap, IsFeltWholeAndReplayedBitForBit) {
   ASSERT_NE(view.says_one_of({"jump off contact", "force off"}), "") << view.said();
   press(view, "F10", "a slice shows the forces along the tip's line");
   press(view, "F4", "the picture shows the adhesion");
-  // until what the last event left on the wall has faded
+  // until the marks of the last event on the wall have faded
   render::Image saved, before;
   for (int picture = 1; picture <= 20; ++picture) {
     const std::string name = "touchafm-0" + std::string(picture < 10 ? "0" : "") + std::to_string(picture) + ".png";

@@ -72,7 +72,7 @@ class PanelsOfTheView : public ::testing::Test {
     return panels_->pointed_at({.origin_m = eye_m, .direction = glm::normalize(middle_m - eye_m)}, middle_m, 0);
   }
 
-  // With one field of what is sent set.
+  // Expects a record with one changed field to be followed.
   void expect_followed(std::string_view name, std::uint32_t value) {
     cluster::ShownPanels sent{.flags = cluster::ShownPanels::kControl};
     for_each_field(
@@ -133,7 +133,7 @@ TEST_F(PanelsOfTheView, AreHiddenWithTheirButtonsAndTheNote) {
   }
 }
 
-// What replaces the data elsewhere is beside them, and until then their sources are.
+// A panel that replaces the data elsewhere is beside them, in the place of their sources.
 TEST_F(PanelsOfTheView, UseTheFarEndOfAWideWall) {
   EXPECT_FALSE(stage_->wall_scene.places().far());
   load(support::source("assets/walls/wide.toml"));

@@ -33,7 +33,7 @@ TEST(WandChoice, KnowsEverySource) {
   EXPECT_EQ(choose("dtrack")->file.dtrack->address, "127.0.0.1");
 }
 
-// A file that was copied and not changed alters nothing.
+// A copied, unchanged file has no effect.
 TEST(WandChoice, TakesATrackersAxesAsTheShippedFileDoes) {
   const auto without = choose("dtrack:127.0.0.1:5000", "dtrack:2");
   const auto with = parse_wand_choice({.file = support::source("assets/wands/dtrack.toml")});

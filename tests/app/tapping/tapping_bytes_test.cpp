@@ -15,7 +15,7 @@
 namespace afm::app {
 namespace tapping_bytes_test {
 
-// While it lives, this thread and those that it starts have one core.
+// Restricts this thread and those that it starts to one core during the object's lifetime.
 class OneCore {
  public:
   OneCore() {

@@ -82,7 +82,7 @@ class TwoOutputsTest : public ::testing::Test {
     }
     return largest;
   }
-  // Waits until the desktop is as it should be; returns what it shows in the end.
+  // Waits until the desktop has the expected contents; returns its last contents.
   template <class Holds>
   render::Image until(Holds&& holds) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -112,7 +112,7 @@ TEST_F(TwoOutputsTest, EachProjectorShowsWhatIsDrawnForItsEyeThroughItsOwnKeysto
   EXPECT_EQ(difference(shown, drawn, 0, TwoMonitors::kWidth), 0) << "the left projector";
   EXPECT_EQ(difference(shown, drawn, TwoMonitors::kWidth, TwoMonitors::kWidth), 0) << "the right projector";
 
-  // the mouse in the second window is a hand as it is in the first
+  // the mouse acts as a hand in the second window as in the first
   ASSERT_EQ(on_display("xdotool key g").exit_code, 0);
   exhibit::ExhibitFiles files;
   files.assets_dir = support::source("assets");

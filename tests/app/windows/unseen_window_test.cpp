@@ -63,7 +63,7 @@ class WindowManager {
   pid_t pid_;
 };
 
-// What hides a window, done at once: a program that does it would take longer to start than the force has to go.
+// Hides a window at once: a program that does so would take longer to start than the force takes to fade.
 class Desktop {
  public:
   explicit Desktop(const std::string& display) : display_(XOpenDisplay(display.c_str()), XCloseDisplay) {
@@ -74,7 +74,7 @@ class Desktop {
                       CopyFromParent, InputOutput, nullptr, CWOverrideRedirect, &attributes);
   }
 
-  // As a locked session does.
+  // Covers the window, like a locked session.
   void cover() const { sync(XMapRaised(display_.get(), cover_)); }
   void uncover() const { sync(XUnmapWindow(display_.get(), cover_)); }
   void minimise(::Window window) const { sync(XIconifyWindow(display_.get(), window, 0)); }
@@ -201,7 +201,7 @@ TEST_F(UnseenWindow, LosesTheForceWhenItsMonitorIsOff) {
   loses_force(hide, [this] { monitors_.xrandr("--output DUMMY1 --mode small --pos 320x0"); }, "no monitor shows");
 }
 
-// As in a blind step, which hides the picture in the same way.
+// The picture is hidden as in a blind step.
 TEST_F(UnseenWindow, KeepsTheForceUnderABlankPicture) {
   support::LiveProgram program(view(), monitors_.name());
   start(program);

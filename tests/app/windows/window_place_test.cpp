@@ -123,7 +123,7 @@ TEST(WindowPlace, IsThatOfTheWallFileUnderAWindowManager) {
   EXPECT_TRUE(stands(display.name(), "TouchAFM, left", "20,45", "240x180"));
   EXPECT_TRUE(stands(display.name(), "TouchAFM, right", "500,333", "240x160"));
 
-  // also after somebody has moved it
+  // also after the window has been moved by somebody
   ASSERT_EQ(run_on(display.name(), "xdotool search --name 'TouchAFM, left' windowmove 300 200").exit_code, 0);
   EXPECT_TRUE(stands(display.name(), "TouchAFM, left", "20,45", "240x180"));
   EXPECT_THAT(program.said(), Not(HasSubstr("the window manager keeps")));
@@ -193,7 +193,7 @@ TEST(WindowOfADisplay, With30BitsIsGood) {
               ::testing::ContainsRegex("display +good"));
 }
 
-// What cannot be used is not called good, and the display is named as the cause.
+// An unusable display is not called good; the message names it as the cause.
 TEST(WindowOfADisplay, ThatCannotBeUsedIsCalledSo) {
   for (const int depth : {8, 16}) {
     const support::VirtualDisplay display(640, 480, depth);

@@ -19,7 +19,7 @@
 
 namespace afm::exhibit {
 
-// ---- the parts of a record: its fields, their fields, and whether what may be absent is there ----
+// ---- parts of a record: its fields, their fields, and the presence of optional ones ----
 
 template <class Value>
 constexpr bool kIsGroup = false;

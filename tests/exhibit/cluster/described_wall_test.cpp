@@ -29,7 +29,7 @@
 namespace afm::exhibit {
 namespace described_wall_test {
 
-// ---- what is left out on purpose ----
+// ---- fields that are omitted on purpose ----
 
 struct LeftOut {
   std::string_view part;
@@ -97,7 +97,7 @@ void expect_kept(const Record& record, std::vector<LeftOut> left_out, const IsKe
   for (const LeftOut& row : left_out) ADD_FAILURE() << row.part << " is listed, but there is no such field";
 }
 
-// True if one part of a record comes back as it was, before and after a change.
+// True if one part of a record returns unchanged, before and after a change.
 template <class Record, class Through>
 bool comes_back(const Record& record, const std::string& part, const Through& through) {
   const Record other = changed(record, part);
@@ -123,7 +123,7 @@ class DescribedWall : public ::testing::Test {
     particles_.set = &set_;
   }
 
-  // No field is as in a new moment.
+  // Moment in which every field differs from a new moment.
   Moment moment(Centerpiece centerpiece) const {
     Moment moment;
     WallState& wall = moment.wall;
@@ -158,7 +158,7 @@ class DescribedWall : public ::testing::Test {
     return moment;
   }
 
-  // As the servo's state would be.
+  // Tip state as in the servo's answer.
   static scene::TipState tip_of(const Moment& moment) {
     scene::TipState tip;
     tip.tip = moment.wall.tip;
@@ -232,7 +232,7 @@ TEST_F(DescribedWall, ComesBackFromASession) {
   });
 }
 
-// In one of the wall's pictures at least.
+// Each part of a moment changes at least one of the wall's pictures.
 TEST_F(DescribedWall, ChangesTheDigestOfTheFrame) {
   std::vector<Moment> walls{moment(Centerpiece::Instrument)};  // wall with an image in the place of the curve
   for (const Centerpiece centerpiece : core::kEnumerators<Centerpiece>) {

@@ -81,7 +81,7 @@ TEST(BannerOfACluster, KeepsItsSizeWhereTheLivingScreensHaveTheRoom) {
   EXPECT_NEAR(ends_of(moved).right_m, 0.95, 0.05);
 }
 
-// The nodes keep the last picture of a master that is gone; neither of them reaches across its screen.
+// The nodes keep the last picture of a master that is gone; no banner extends across its screen.
 TEST(BannerOfACluster, LeavesTheScreenOfTheMasterThatIsGone) {
   const Ends ends = ends_of(on_living_screens(kBanner, wall_of_three(), {.nodes = 0, .master = true}));
   EXPECT_TRUE(ends.right_m < -1.0 || ends.left_m > 1.0) << ends.left_m << " to " << ends.right_m;

@@ -35,7 +35,7 @@ class SharedFrame : public ::testing::Test {
     cycles_.emplace(felt_.size());
   }
 
-  // One of twenty of a session: the tip goes down and up, and everything else changes too.
+  // One of a session's twenty samples: the tip goes down and up, and everything else changes, too.
   scene::TipState tip_at(int i) const {
     scene::TipState tip;
     tip.time_ns = 1'000'000'000LL + 100'000'000LL * i;

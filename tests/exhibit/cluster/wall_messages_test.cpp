@@ -205,7 +205,7 @@ TEST(WallHistoryTest, HasTheNewestMarks) {
   ASSERT_TRUE(there);
   EXPECT_EQ(there->tiles, marked);
 
-  // taken back: bare again
+  // marks taken back: bare again
   for (const MarkRecord& row : changed_rows(marked, std::vector<scene::MarkTile>(scene::kMarkTiles), 100)) {
     here.apply(JournalRecord(row));
   }
@@ -256,7 +256,7 @@ TEST(WallHistoryTest, HasTheNewestScore) {
   EXPECT_TRUE(refused([](scene::TaskScore& s) { s.largest_lateral_n = std::nan(""); }));
 }
 
-// With the drive of a lever that taps.
+// Settings that include the drive of a tapping lever.
 TEST(WallHistoryTest, HasEverySettingOfAScan) {
   const ScanChange begun{.frame = 0, .pixel = 0, .choice = {.setpoint_n = 0.8, .free_amplitude_m = 20e-9}};
   const ScanChange changed{.frame = 1,

@@ -137,7 +137,7 @@ TEST_F(DataSetTest, GivesEachParticipantThenextOrderAndAWithdrawnOneAgain) {
   EXPECT_EQ(again.error().category, core::ErrorCategory::WrongUsage);
 }
 
-// Two lessons that begin at once on two machines: what is kept is the order that each of them had.
+// Two lessons that begin at once on two machines: each keeps the order that it was planned with.
 TEST_F(DataSetTest, KeepsTheOrderThatALessonWasPlannedBy) {
   DataSetEntry planned = entry("AAAAAA");
   planned.order = order_of(study(), "AAAAAA").value();

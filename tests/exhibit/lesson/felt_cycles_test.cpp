@@ -149,7 +149,7 @@ TEST_F(FeltCycles, SayItAtOnceAndNotOnlyAtThePullOff) {
   EXPECT_THAT(run.prompt(3).words, HasSubstr("does not count"));
 }
 
-// What the hand did not feel is no question.
+// Cycles that the hand did not feel are not asked about.
 TEST_F(FeltCycles, OfAHiddenSampleAreRepeatedWithTheSameSampleAndNeverAsked) {
   auto run = this->run(StepKind::Identify);
   const auto shown = run.prompt(0).material;

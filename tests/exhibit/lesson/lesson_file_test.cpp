@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + kFit, "step: is missing"},
         Refusal{kHead + "scale = \"atoms\"\n" + step("type = \"text\"\n"), "line 5: scale: atoms is unknown"}));
 
-// A study compares its participants by it.
+// A study compares its participants by this digest.
 TEST(LessonDigest, IsThatOfTheParticleFileToo) {
   const support::ScratchFolder folder;
   const std::string gold = core::read_file(support::source("assets/particles/gold-row.toml")).value(),
@@ -194,7 +194,7 @@ TEST(LessonDigest, IsThatOfTheParticleFileToo) {
   EXPECT_NE(digest(), before);
 }
 
-// With a user's mica another hand is trained.
+// A user's mica trains the hand differently.
 TEST(LessonDigest, IsThatOfTheUsersMaterialsToo) {
   const support::ScratchFolder folder;
   const std::string lesson = support::source("assets/lessons/first-touch.toml"), assets = support::source("assets");

@@ -342,7 +342,7 @@ TEST_F(LessonRunTest, ATrialThatCannotBeKeptEndsTheLesson) {
   EXPECT_EQ(run.prompt(2).wants, Wants::Nothing);
 }
 
-// The student's abilities are those that it is given, within what chance allows in so many trials.
+// Simulated students show the abilities that they were given, within the chance of so many trials.
 TEST_F(LessonRunTest, SimulatedStudentsHaveTheAbilitiesTheyAreGiven) {
   lesson_.steps = {step_of(StepKind::Identify, {0, 1}), step_of(StepKind::Threshold, {1})};
   lesson_.steps[0].trials = lesson_.steps[1].trials = 200;

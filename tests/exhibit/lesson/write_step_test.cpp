@@ -105,7 +105,7 @@ class WriteStep : public ::testing::Test {
     return LessonRun(lesson_, samples_, test::english(), {.seed = 3}, keep, 0.0);
   }
 
-  // A tick with the tip on the sample as it is now, or above it.
+  // Adds a tick with the tip on the sample in its current state, or above it.
   void tick(LessonRun& run, bool on, HandForce force = HandForce::Full) {
     now_s_ += 1e-3;
     scene::TipSample sample;

@@ -99,7 +99,7 @@ TEST(SessionCsv, IsReadAsACurve) {
   EXPECT_FALSE(curves::parse_curve(session_csv(servo::RecordedSession{}), "curve-none.csv"));
 }
 
-// A browser of 400 pixels: the page keeps its width, and what is wider is moved inside its own box.
+// In a browser 400 pixels wide the page keeps its width, and wider contents scroll inside their own box.
 TEST(Report, LetsWhatIsWideBeMovedInItsOwnBox) {
   const std::string html = report();
   EXPECT_THAT(html, HasSubstr("<meta name=\"viewport\" content=\"width=device-width"));

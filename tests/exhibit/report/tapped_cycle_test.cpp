@@ -107,7 +107,7 @@ TEST(TappedMeasurement, JudgesTheHeightsOfTheJumps) {
   EXPECT_EQ(exact->law, "tapping-dmt");
   EXPECT_LT(exact->worst_error(), 1e-12);
   EXPECT_TRUE(check_accuracy(*exact));
-  // a hand that is as fast as it may be shifts them by less
+  // a hand at its largest speed shifts them by less
   EXPECT_TRUE(check_accuracy(measure(cycle(sample(), 0.4e-9), sample()).value()));
   EXPECT_FALSE(check_accuracy(measure(cycle(sample(), 0.6e-9), sample()).value()));
   servo::RecordedSession half = cycle(sample());

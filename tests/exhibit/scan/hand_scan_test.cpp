@@ -75,7 +75,7 @@ class Ticks {
 
 HandPart part(bool feedback) { return {.paints = true, .feedback = feedback, .side_m = kSideM, .first_tick = 100}; }
 
-// What was measured is felt on another scale: the servo's places are of that, the image is of the sample.
+// A measured sample is felt at another scale: the servo's places have that scale, the image has the sample's.
 TEST(HandScan, PaintsAMeasuredSampleInItsOwnMetres) {
   constexpr scene::TopographyScale kShown{.lateral = 0.5, .vertical = 4.0};
   for (const bool feedback : {true, false}) {
@@ -297,7 +297,7 @@ TEST(LeadingScan, SaysWhatTheHandCanDo) {
   EXPECT_THAT(said(painted), StartsWith("Your hand takes the image"));
 }
 
-// The guidance of the procedure says what went wrong, and how to get the force back.
+// The guidance of the procedure explains what went wrong, and how to get the force back.
 TEST(LeadingScan, LeavesTheWayBackToTheForceToTheProcedure) {
   const LiveScan led(hills(), HandPart{.side_m = kSideM}), painted(hills(), part(true));
   scene::TipState tip;

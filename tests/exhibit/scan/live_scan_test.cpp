@@ -177,7 +177,7 @@ TEST(LiveScan, ScansAMeasuredSampleAsItIsDrawnAndABlunterTipHigher) {
   EXPECT_NEAR(scan.apex_m().z, scan.surface_m(scan.apex_m().x, scan.apex_m().y), relief_m * shown.vertical);
 }
 
-// Over 100 um of waves the usual settings of a small image would let the tip fly over most of them.
+// Over 100 um of waves the usual settings of a small image would let the tip fly over most of the waves.
 TEST(LiveScan, BeginsSlowAndFirmEnoughForItsSubject) {
   constexpr double kSideM = 100e-6, kWave = 2.0 * 3.14159265358979 / 10e-6, kHighM = 40e-9;
   ScanSubject subject;
@@ -289,7 +289,7 @@ TEST(LiveScan, RefusesARecordedProgressThatNoScanHas) {
   EXPECT_FALSE(LiveScan::valid(bad)) << "out of order";
 }
 
-// ---- what is tip and what is sample ----
+// ---- effects of tip and sample ----
 
 TEST(LiveScan, ShowsThatABluntTipLeavesMoreUntouched) {
   LiveScan scan = scan_of(kGold);

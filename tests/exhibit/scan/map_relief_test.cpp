@@ -65,7 +65,7 @@ const scene::Vertex& at(const HeightRelief& relief, double column_share, double 
 
 TEST(MapRelief, HasTheColoursOfItsPictureAtThePlacesOfItsPixels) {
   const HeightRelief relief = map_relief(picture(), sample(), slope());
-  // from the middle of the first pixel to that of the last
+  // from the middle of the first pixel to the middle of the last
   EXPECT_NEAR(relief.side_m, 2.0 * 3.0 * kPixelM, 3e-3 * relief.side_m) << "within its rim";
   EXPECT_EQ(at(relief, 0.0, 0.0).color, linear_colour(height_colour(0.0)));
   EXPECT_EQ(at(relief, 0.99, 0.99).color, linear_colour(height_colour(1.0)));

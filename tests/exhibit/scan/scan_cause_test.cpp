@@ -29,7 +29,7 @@ ScanSubject stepped_wave() {
   return subject;
 }
 
-// As `touchafm scan --json` judges the newest line of the same scan.
+// Artefact that `touchafm scan --json` finds in the newest line of the same scan.
 physics::ScanArtefact artefact_in_json(const LiveScan& scan, double lines) {
   const physics::ScanSettings settings = settings_of(scan.choice(), scan.subject().adhesion_n);
   physics::Scanner scanner(scan.scanner().area(), settings, scan.subject().traced(scan.choice().tip_radius_m));

@@ -14,7 +14,7 @@
 #include "exhibit/scan/scan_subject.h"
 #include "scanned_sample.h"
 
-// What keys I and E lay on the sample.
+// Relief that the keys I and E lay on the sample.
 namespace afm::exhibit {
 namespace scan_relief_test {
 

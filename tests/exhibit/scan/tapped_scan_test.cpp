@@ -51,7 +51,7 @@ using enum physics::ScanArtefact;
 // The sample of docs/tapping.md on the steps of gold.
 LiveScan tapped_scan() { return LiveScan(scan_subject(stage().wall_scene, kGold, test::tapped_sample())); }
 
-// Another surface on that square: the drawn samples are too flat to stop a swing of 20 nm.
+// Scan of another surface on that square: the drawn samples are too flat to stop a swing of 20 nm.
 LiveScan scan_of(const std::function<double(double share)>& height_m) {
   ScanSubject subject = scan_subject(stage().wall_scene, kGold, test::tapped_sample());
   const auto surface = [height_m, side_m = subject.side_m](double x_m, double) { return height_m(x_m / side_m); };
@@ -141,7 +141,7 @@ TEST(TappedScan, KeepsItsDriveWithoutOne) {
   EXPECT_EQ(LiveScan(scan.subject(), older).choice(), scan.usual());
 }
 
-// Another machine of the wall hears of each change by a record, in whatever frame it is then.
+// Another machine of the wall receives each change as a record, in any of its frames.
 TEST(TappedScan, HasTheSameImageOnAnotherMachineAfterChangesOfItsDrive) {
   LiveScan scan = tapped_scan();
   LiveScan there(scan.subject());

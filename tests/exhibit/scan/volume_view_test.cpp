@@ -122,7 +122,7 @@ TEST(VolumeView, CutsTheForcesOfTheTipsLineOnTheWayOfTheTip) {
   EXPECT_GT(middle(stiff, *shown.scene, 0.1).r, middle(stiff, *shown.scene, 0.1).b) << "a push";
   EXPECT_LT(middle(stiff, *shown.scene, 0.8).a, 0.4F) << "nothing acts before the contact";
   EXPECT_LT(middle(up, *shown.scene, 0.75).r, middle(up, *shown.scene, 0.75).b) << "a pull";
-  // it follows the tip
+  // the slice follows the tip
   const auto node = shown.scene->scene().find_node("slice/slice").value();
   const glm::dvec3 moved(stiff.room_from_node[node][3] - soft.room_from_node[node][3]);
   const double way = 0.88 * kGrid.height_m * shown.per_measured / shown.scene->drawn_scale(0).sample_m_per_m;

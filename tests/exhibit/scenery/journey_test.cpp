@@ -47,7 +47,7 @@ TEST_F(JourneyTest, LeavesTheContactPointWhereItIs) {
   scene_.update({.material = 0}, still);
   const glm::dvec3 contact(still.room_from_node[node("sample")][3]);
   for (double orders = 0.0; orders <= kJourneyOrders; orders += 0.01) {
-    // as the renderer gets it
+    // matrix as passed to the renderer
     const glm::mat4 room_from_frame(frame(orders).room_from_node[node("journey-frame")]);
     EXPECT_LT(glm::distance(glm::dvec3(room_from_frame[3]), contact), 1e-6) << orders;
   }
@@ -106,7 +106,7 @@ TEST_F(JourneyTest, MarksItsRungOnALadderOfTenPowersAndNamesTheGap) {
   EXPECT_TRUE(named(9.0));
 }
 
-// The name of the gap was beside the tip and pointed at nothing.
+// The name of the gap was once beside the tip and pointed at nothing.
 TEST_F(JourneyTest, DrawsTheGapThatItNames) {
   const double unit_m = scene_.panel_millimetre_m() * 1000.0;
   for (double orders = 7.95; orders <= kJourneyOrders; orders += 0.1) {
@@ -158,7 +158,7 @@ TEST_F(JourneyTest, ShadesWithTheBallAndThePyramidOfTheModel) {
   EXPECT_LT(state.cone.slope, 0.446F);  // an edge
 }
 
-// What the map of the shadows covers is 3.4 layout units wide: at the scales of the tip it would end in the air.
+// The shadow map covers 3.4 layout units: at the scales of the tip the shadow would end in mid-air.
 TEST_F(JourneyTest, FadesFromTheShadowsOfTrianglesToTheTipsSoftShade) {
   double share = 1.0;
   for (double orders = 0.0; orders <= kJourneyOrders; orders += 0.05) {
@@ -169,7 +169,7 @@ TEST_F(JourneyTest, FadesFromTheShadowsOfTrianglesToTheTipsSoftShade) {
     EXPECT_LE(static_cast<double>(state.key_light.map_share), share) << orders;
     EXPECT_LT(share - static_cast<double>(state.key_light.map_share), 0.2) << orders;
     share = static_cast<double>(state.key_light.map_share);
-    // it is on the contact point
+    // the cone's apex is near the contact point
     const glm::dvec3 contact(state.room_from_node[node("journey-frame")][3]);
     EXPECT_LT(glm::distance(glm::dvec3(state.cone.apex_m), contact), 0.71 * scene_.panel_millimetre_m() * 1000.0);
   }
@@ -225,7 +225,7 @@ TEST_F(JourneyTest, ShowsEachPartInItsTurn) {
   EXPECT_EQ(frame(1.0).visible[node("ground-mica/atoms")], 0);
 }
 
-// While they are a patch of the view, they are below the ground; then all of them come out of it.
+// The atoms are below the ground while they fill only a part of the view; then all of them come out of it.
 TEST_F(JourneyTest, LetsTheAtomsOutOfTheGroundOnceTheyFillTheView) {
   for (std::size_t material = 0; material < materials_.materials.size(); ++material) {
     const std::string name = "ground-" + materials_.materials[material].name;

@@ -25,7 +25,7 @@ core::Result<Stage> stage_on(const std::string& wall_file) {
 
 using PixelsOfAWall = test::VulkanTest;
 
-// In a cycle most of the wall stays as it is: what is drawn of it gives the bytes of drawing all of it.
+// In a cycle most of the wall stays unchanged: partial redrawing gives the same bytes as drawing all of it.
 TEST_F(PixelsOfAWall, AreRedrawnWhereTheTipMovesAndAsIfAllWere) {
   const auto stage = stage_on(support::source("assets/walls/desk-red-cyan.toml"));
   ASSERT_TRUE(stage) << stage.error().message;

@@ -190,7 +190,7 @@ TEST(CaptionOnTheWall, OfSlipsDoesNotPushAwayAJump) {
   EXPECT_EQ(captions.text(6'800 * kMs), "") << "some seconds later";
 }
 
-// ---- what the tip does
+// ---- events of the tip
 
 class TipEarTest : public ::testing::Test {
  protected:
@@ -243,7 +243,7 @@ TEST_F(TipEarTest, HearsATouchWhereTheForceCrossesZero) {
   EXPECT_TRUE(sample(State::Running, Phase::Attached, 1e-10).has_value()) << "in the next cycle again";
 }
 
-// ---- the procedure, by what is said
+// ---- steps of the procedure, as spoken
 
 class NarratorTest : public ::testing::Test {
  protected:
@@ -308,7 +308,7 @@ TEST_F(NarratorTest, ReportsEachLineOfAnImage) {
   EXPECT_THAT(signals_, ElementsAre(HeardEvent::ScanLine, HeardEvent::ScanLine));
 }
 
-// Ten lines a second would keep the caption on the wall for the whole image, and key Y would begin with it.
+// Ten lines a second would keep the caption on the wall for the whole image, and key Y would repeat it first.
 TEST_F(NarratorTest, CaptionsTheFirstLineOfAnImageAlone) {
   std::size_t captions = 0;
   std::string shown;

@@ -36,7 +36,7 @@ TEST(SoundOutput, PlaysThePitchOfAForceIntoSdlsDiskDriver) {
     sample.servo_state = scene::ServoState::Running;
     sample.phase = physics::Phase::Attached;
     sample.tip.force_n = -1.399894e-9;
-    // until it holds a second of it
+    // until it contains a second of sound
     for (int i = 0; i < 3000; ++i) {
       sample.time_ns = clock.now_ns();
       mixer.heard(sample);

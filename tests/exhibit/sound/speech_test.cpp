@@ -147,7 +147,7 @@ TEST_F(SpeakerTest, PutsTheVoiceOfEspeakIntoTheMixer) {
 TEST_F(SpeakerTest, SpeaksTheNewestOfAFloodAndReturnsAtOnce) {
   const support::ScratchFolder folder;
   const std::string log = folder.file("log");
-  // as slow as a child may be
+  // a slow child, which takes 0.3 s per text
   Speaker speaker(script(folder, "echo \"$5\" >> " + log + "; sleep 0.3", Voice::ItsOwn), mixer_, clock_);
   const auto begun = std::chrono::steady_clock::now();
   for (int i = 0; i < 1000; ++i) speaker.offer({"text " + std::to_string(i), SpeechKind::Event});

@@ -29,7 +29,7 @@ std::vector<std::string> calls() {
   return all;
 }
 
-// No force without a lift and two presses, one for the fault.
+// Expects no force without a lift and two presses, one of them for the fault.
 void expect_rearming(DhdBench& bench) {
   bench.run(100);
   EXPECT_EQ(bench.felt(), 0.0);
@@ -181,7 +181,7 @@ TEST(DhdDevice, NamesWhyTheDeviceLeftForceMode) {
   }
 }
 
-// Who switches the force off at the device wants it off.
+// A person who switches the force off at the device wants it off.
 TEST(DhdDevice, LeavesTheForceOffUntilTheUserSwitchesItOnAtTheDevice) {
   for (const auto& [cause, said] : {std::pair(1, "its force button is off"), std::pair(6, "dead-man switch")}) {
     SCOPED_TRACE(cause);

@@ -79,7 +79,7 @@ TEST(DhdSetup, ReportsTheProfileOfItsModelAndStartsNothing) {
   EXPECT_EQ(calls(), (std::vector<std::string>{"open", "close"}));
 }
 
-// Every model lets 50 mm be felt above the sample; none exceeds what careful drivers give a hand.
+// Every model renders 50 mm above the sample; none exceeds the limits of careful drivers.
 TEST(DhdSetup, HasAProfileOfEveryModel) {
   for (const int type : {63, 33, 34, 36, 35, 37, 104, 105, 108, 109, 60, 91, 0}) {
     const DeviceSpec spec = dhd::model_spec(type, "");

@@ -43,7 +43,7 @@ class Servo {
   explicit Servo(HaplyDevice& device)
       : device_(device), governor_(safety_limits(device.spec(), 1'000'000, 0.05, false)) {}
 
-  // One tick; gives the command's vertical force.
+  // Runs one tick; returns the vertical force of the command.
   double tick() {
     now_ns_ += 1'000'000;
     GovernorInput input;
@@ -73,7 +73,7 @@ class Servo {
   int ticks_ = 0;
 };
 
-// Of the newest force that the service was sent; positive, as none is, before the first.
+// Vertical component of the newest force sent to the service; positive, unlike any force, before the first.
 double last_force_z(HaplyService& service) {
   const auto forces = service.forces();
   return forces.empty() ? 1.0 : forces.back().z;
@@ -92,7 +92,7 @@ TEST(HaplyDevice, GivesThePlaceAndTheButtonAndTakesTheForce) {
 
   Servo servo(**device);
   ASSERT_TRUE(servo.pulls_with_one_newton());
-  // down is the service's -z; nothing else moves
+  // down is -z of the service; the other components stay zero
   EXPECT_TRUE(eventually([&] {
     servo.tick();
     const auto forces = service.forces();
@@ -145,7 +145,7 @@ class PullingHaply : public testing::Test {
     ASSERT_TRUE(pulls());
   }
 
-  // Whether the service gets force, as long as it speaks.
+  // True if the service receives force, as long as it answers.
   bool pulls() {
     return eventually([&] {
       servo_->tick();
@@ -256,7 +256,7 @@ TEST(HaplyDevice, SaysThatTheWantedArmIsMissing) {
   EXPECT_THAT(none.error().message, HasSubstr("reported no device 0099 within 2 s"));
 }
 
-// The hand on one arm must not feel what the other one does.
+// The hand on one arm must not feel the force of the other.
 TEST(HaplyDevice, NeverMovesItsForceToAnotherArm) {
   HaplyService service(HaplyService::Manner::Crowd);
   const auto device = HaplyDevice::open(kClock, service.port());
@@ -264,7 +264,7 @@ TEST(HaplyDevice, NeverMovesItsForceToAnotherArm) {
   ASSERT_TRUE(eventually([&] { return (*device)->read(kClock.now_ns()).healthy; }));
   service.second_only = true;
   ASSERT_TRUE(eventually([&] { return !(*device)->read(kClock.now_ns()).healthy; }));
-  // before it connects again it has read what the last connection sent
+  // time to read the last connection's messages before it connects again
   for (int i = 0; i < 2; ++i) {
     const unsigned before = service.states();
     service.hang_up();

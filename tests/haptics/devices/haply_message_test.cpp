@@ -41,7 +41,7 @@ TEST(HaplyMessage, TakesTheButtonOfAGripOnAWireToo) {
   EXPECT_TRUE(state->button);
 }
 
-// As the documents of the service's version 3.5 have it, with a family of tomorrow.
+// Message as documented for version 3.5 of the service, with an unknown future family.
 const std::string kFirst =
     R"({"session_id":7,"inverse3":[)"
     R"({"device_id":"049D","config":{"type":"inverse3"},"state":{"cursor_position":{"x":0.01,"y":-0.12,"z":0.15}}},)"

@@ -93,7 +93,7 @@ TEST(HdapiDevice, NeverStepsFurtherThanTheDeviceAllows) {
   EXPECT_EQ(bench.state().servo_state, ServoState::Running);
 }
 
-// Every second callback is lost while the tip is torn off: the governor then steps twice between two of them.
+// Every second callback is lost while the tip is torn off: the governor then makes two steps between callbacks.
 TEST(HdapiDevice, DividesTwoStepsOfTheServoThatFallBetweenTwoCallbacks) {
   HdapiBench bench([] { mock_hd_set_limit(kImpulseProperty, 0.1); });
   bench.hold_attached();

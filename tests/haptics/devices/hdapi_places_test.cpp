@@ -20,7 +20,7 @@ TEST(HdapiPlaces, LosesItsForceWhenItsSensorFreezes) {
   EXPECT_EQ(bench.state().fault, FaultCode::DeviceError);
 }
 
-// From where it pulls, past the place where it lets go, and back on every other tick.
+// Moves from a pulling place past the place of release, and back on every other tick.
 TEST(HdapiPlaces, GivesNoOtherForceForPlacesWhereNoHandCanBe) {
   for (const double jump_mm : {5.0, 45.0, 50.0}) {
     SCOPED_TRACE(jump_mm);

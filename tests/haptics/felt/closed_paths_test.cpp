@@ -54,7 +54,7 @@ class Walk {
     return renderer_.tip_push()->hand_m_per_m * glm::dvec2(page_.poses[0].x_m, page_.poses[0].y_m);
   }
 
-  // On a straight line, with the sample's z up; returns the work of the hand.
+  // Moves on a straight line, with the sample's z up; returns the work of the hand.
   double go(const glm::dvec3& to) {
     double work_j = 0.0;
     while (at_m_ != to) {
@@ -111,7 +111,7 @@ TEST(ClosedPathsAmongParticles, GiveTheHandNoEnergyAfterTheGovernor) {
       const double right_m = beside(random), back_m = beside(random);
       return middle + glm::dvec2{right_m, back_m};
     };
-    // from outside, so that the sphere stays in the middle of the workspace
+    // starts outside, so that the sphere stays in the middle of the workspace
     const double angle = turn(random);
     const glm::dvec2 random_way(std::cos(angle), std::sin(angle));
     const glm::dvec2 outwards = glm::length(middle) > 0.01 ? glm::normalize(middle) : random_way;

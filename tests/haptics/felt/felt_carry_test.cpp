@@ -68,7 +68,7 @@ TEST(FeltCarry, ASphereIsPickedUpCarriedHighAndReleasedOnAPad) {
   EXPECT_EQ(hand.felt.sample().state, PushState::Carried);
   EXPECT_EQ(hand.pose(0).moved, PushState::Carried);
 
-  // higher than a tip that touches nothing, over the other sphere: no force, and the sphere follows
+  // higher than a free tip, over the other sphere: no force, and the sphere follows
   const glm::dvec2 hangs = glm::dvec2(hand.pose(0).x_m, hand.pose(0).y_m) - glm::dvec2(hand.at);
   hand.strongest_n = 0.0;
   hand.go(200e-9, 50e-9, hand.high_m);
@@ -92,7 +92,7 @@ TEST(FeltCarry, ASphereIsPickedUpCarriedHighAndReleasedOnAPad) {
   EXPECT_NEAR(hand.pose(0).y_m, 50e-9, 4e-9);
   EXPECT_EQ(hand.felt.push().particle, scene::kNoParticle);
 
-  // all of that is one push, which can be taken back
+  // all of this is one push, which can be taken back
   EXPECT_EQ(hand.felt.push().strokes, 1U);
   EXPECT_TRUE(hand.felt.take_back());
   EXPECT_EQ(hand.pose(0).x_m, 0.0);
@@ -134,7 +134,7 @@ TEST(FeltCarry, AServoThatGoesOnLaysASphereThatHungWhereThereIsRoom) {
   EXPECT_LE(apart_m, 2.5 * kRadiusM) << "near where it hung";
   EXPECT_EQ(next.push().digest, scene::digest_of(next.pages(), 2));
 
-  // where there is room, it lies where it hung
+  // with enough room, the sphere lies where it hung
   hand.go(300e-9, 0.0, hand.high_m);
   pages.assign(hand.felt.pages().begin(), hand.felt.pages().end());
   next.resume(pages);

@@ -155,7 +155,7 @@ class NoisyHand {
 
 constexpr double kStrokeM = 0.038, kTickM = 2e-5;
 
-// Where a hand without noise feels its slips.
+// Places at which a hand without noise feels the slips.
 std::vector<double> clean_slips_m() {
   NoisyHand hand(1);
   hand.put_down();

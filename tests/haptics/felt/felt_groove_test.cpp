@@ -286,7 +286,7 @@ class GroovedBench : public test::ServoBench {
       checked_tick();
     } while (state().acknowledged.hand_script != script);
   }
-  // No force of a tick is farther from that of the tick before than the governor allows.
+  // Expects the force of a tick to differ from the previous one by no more than the governor allows.
   void checked_tick() {
     const auto before = renderer.tip_state().value_or(scene::TipState{}).hand.force_n;
     tick();

@@ -33,7 +33,7 @@ class WritingHand final : public test::MarkingHand {
  public:
   WritingHand() : MarkingHand(test::thiol_ink(), 300.0) {}
 
-  // Over the sample until all of it is published, and ready.
+  // Lifts the tip, and waits until everything is published.
   void lift() {
     go(place_nm().x, place_nm().y, tears_nm() + 20.0, 20.0);
     wait(300);
@@ -174,7 +174,7 @@ TEST(FeltInk, NothingIsFeltBeyondTheSquareOrAtAnImpossiblePlace) {
   EXPECT_FALSE(hand.at(0.0, 0.0, std::numeric_limits<double>::infinity()).near);
 }
 
-// The force is that of a spring, zero at the touch, and what it stores where the liquid tears is lost.
+// The force is that of a spring, zero at the touch; the energy stored when the liquid tears is lost.
 TEST(FeltInk, ClosedPathsGiveTheHandNoEnergy) {
   std::mt19937 random(36);
   std::uniform_real_distribution<double> place_nm(-300.0, 300.0), height_nm(-100.0, 350.0), step_nm(0.5, 20.0);

@@ -29,7 +29,7 @@ scene::SharedContact soft() {
   return material;
 }
 
-// The same under a lever just below the least quality factor of the averages, with both jumps.
+// Same contact under a lever just below the least quality factor of the averages, with both jumps.
 scene::SharedContact bistable() {
   scene::SharedContact material = test::tapped_polymer();
   material.contact.spring_constant = physics::Stiffness(4.0);

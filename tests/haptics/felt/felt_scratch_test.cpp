@@ -138,7 +138,7 @@ TEST(FeltScratch, WithoutLossesBeforeALeverStaysRaised) {
   EXPECT_GT(hand.felt().push().rise_m, 40e-9);
 }
 
-// What closed paths, slow and fast, give to a hand after the governor: the most of any, J.
+// Largest energy, in J, that slow and fast closed paths give to a hand after the governor.
 double most_given_j(double held_j, int paths) {
   ScratchingHand hand(held_j);
   hand.lift();

@@ -69,7 +69,7 @@ TEST(FeltTapping, GivesAHandThatLoopsByItsMeanForceNoMoreThanTheEnergyTankHolds)
   }
 }
 
-// A slow hand feels all of it: pulled above the jump in, pushed below it.
+// A slow hand feels the whole mean force: a pull above the jump in, a push below it.
 TEST(FeltTapping, LetsTheMeanForceBeFeltInPlaceOfThePush) {
   scene::SharedContact polymer = tapped_polymer();
   polymer.felt_mean_force = 1;

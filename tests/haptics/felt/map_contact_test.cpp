@@ -205,7 +205,7 @@ TEST(MapContact, IsTheOrdinaryContactWhereTheMapHasOneValue) {
   }
 }
 
-// The law at a place is that of its modulus: the splines between the laws of the family add nothing.
+// The law at a place belongs to its modulus: splines between the laws of the family add nothing.
 TEST(MapContact, HasTheLawOfEveryModulusAndAdhesionOfTheMap) {
   for (const double share : support::deep() ? std::vector{0.0, 0.31, 1.0} : std::vector{0.31}) {
     const auto map = test::hilly_map(test::rubber(Law::Dmt));

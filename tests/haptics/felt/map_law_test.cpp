@@ -134,7 +134,7 @@ class Hand {
         tolerance_j_, parts);
   }
 
-  // The same with all jumps on the way, each at its place.
+  // Work with all jumps on the way, each at its place.
   double work_with_jumps(Phase& phase, const glm::dvec3& from_m, const glm::dvec3& to_m, int& jumps) const {
     constexpr int kSteps = 50, kParts = 8;
     double work_j = 0.0;

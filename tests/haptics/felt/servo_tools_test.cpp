@@ -16,7 +16,7 @@ using physics::EventKind;
 using scene::ScaleMode;
 using test::PushingBench;
 
-// With force on, the tool waits for the tip to be off the sample, and the force is gone before it changes.
+// With force on, the tool waits until the tip is off the sample, and changes only after the force is gone.
 TEST(ServoTools, ChangesTheToolWithoutForceAndKeepsPlacesAndStrokes) {
   PushingBench bench;
   const auto choose = [&](scene::PushTool tool) {
@@ -49,7 +49,7 @@ TEST(ServoTools, ChangesTheToolWithoutForceAndKeepsPlacesAndStrokes) {
   EXPECT_EQ(bench.renderer.tip_push()->strokes, 1U);
   EXPECT_GE(bench.renderer.tip_push()->yields, 1U);
 
-  // a tip that moves back drags what it has touched
+  // a tip that moves back drags the touched particle
   bench.put_down();
   bench.go(-0.011, 0.0, 0.001, 0.5);
   bench.go(-0.045, 0.0, 0.001, 1.0);
@@ -196,7 +196,7 @@ TEST(ServoTools, BeginsTheDriftAtTheChangeOfTheLevel) {
   EXPECT_EQ(since_ns(), 0);
 }
 
-// A servo that takes over uses what is chosen from its first tick; what cannot be felt changes nothing.
+// A servo that takes over uses the chosen settings from its first tick; those that cannot be felt change nothing.
 TEST(ServoTools, KeepsTheSettingsOfAPredecessor) {
   PushingBench bench;
   bench.settings = {.tip = 3};

@@ -143,7 +143,7 @@ TEST(SweepingScan, OfARodTurnsOnItsEndFirst) {
   EXPECT_TRUE(scan.sweeps(1.001 * gentle_n));
 }
 
-// Where friction at the tip leaves no gentle load (N25), that of a tip without friction.
+// If friction at the tip leaves no gentle load (N25), the load is that of a tip without friction.
 TEST(SweepingScan, HasAGentleLoadUnderEveryTip) {
   const physics::PushSetup setup = scene::push_setup(test::particles_at({{0.0, 0.0}}));
   const physics::ParticleSpecies& gold = setup.species[0];

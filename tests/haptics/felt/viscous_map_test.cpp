@@ -53,7 +53,7 @@ TEST(ViscousMap, TakesEnergyOnEachOfTenThousandClosedPaths) {
   lift(*model);
   const auto taken = test::ten_thousand_paths(
       0.05, [&](const auto& corners, double mean_m_per_s) { return work_j(*model, corners, mean_m_per_s); });
-  // that with which the damping begins, on a path that hardly enters it
+  // energy with which the damping begins, on a path that hardly enters it
   EXPECT_LE(taken.most_j, 1e-6 * test::largest_j(*model));
   EXPECT_LT(taken.sum_j, -1e-5 * support::draws(10'000)) << "so weak that nobody feels it";
 }

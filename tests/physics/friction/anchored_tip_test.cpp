@@ -70,7 +70,7 @@ TEST(AnchoredTip, FollowsATractrixAroundACorner) {
   tip.land(place(0.0));
   tip.move_to(place(3e-9), kYield);
   tip.move_to(place(3e-9, 0.5e-9), kYield);
-  // of a leash of 0.5 nm that was square to the way: tan(angle/2) = exp(-1)
+  // for a leash of 0.5 nm at right angles to the path: tan(angle/2) = exp(-1)
   const double half = std::exp(-1.0);
   EXPECT_NEAR(tip.force().x.si / kYield.si, -2.0 * half / (1.0 + half * half), 1e-12);
 }
@@ -102,7 +102,7 @@ TEST(AnchoredTip, NeverGivesEnergyOnAClosedPath) {
       at = to;
     }
     slid += lost > 0.0 ? 1 : 0;
-    // nothing was stored at the beginning
+    // no energy was stored at the beginning
     ASSERT_GE(paid, -1e-12 * all);
     ASSERT_LE(tip.stored().si, paid + 1e-12 * all);
   }

@@ -16,7 +16,7 @@ namespace friction_loop_test {
 
 using namespace literals;
 
-// There and back, three times, over `stroke`.
+// Moves back and forth over `stroke`, three times.
 template <class Tip, class Hold>
 std::vector<LateralPoint> cycles(Tip& tip, const Hold& hold, double stroke_m, int points) {
   std::vector<LateralPoint> run;
@@ -100,7 +100,7 @@ TEST(FrictionLoop, NeedsAWholeCycle) {
   std::vector<LateralPoint> there;
   for (int i = 0; i < 100; ++i) there.push_back({Length(1e-10 * i), 1_nN});
   EXPECT_FALSE(last_friction_loop(there));
-  // no friction: the force follows the place both ways
+  // no friction: the force depends only on the place, in both directions
   for (int i = 99; i >= 0; --i) there.push_back({Length(1e-10 * i), 1_nN});
   EXPECT_FALSE(last_friction_loop(there));
 }

@@ -113,7 +113,7 @@ TEST(LateralContact, SlidesAtTheForceOfItsLaw) {
   EXPECT_NEAR(sliding_force_N(lattice, 2_nN), 0.2417e-9, 0.0001e-9);
 }
 
-// What a tick of the servo calls, for each row: an enumerator without its row does not compile.
+// Functions that a tick of the servo calls, for each row: an enumerator without its row does not compile.
 TEST(LateralContact, IsWithoutForceOffTheSampleAndSlidesOnItByEveryLaw) {
   for (const FrictionLawText& row : kFrictionLaws) {
     if (row.law == FrictionLaw::None) continue;

@@ -36,7 +36,7 @@ class LatticeOfAnyKind : public testing::TestWithParam<LatticeKind> {
 INSTANTIATE_TEST_SUITE_P(Kinds, LatticeOfAnyKind,
                          testing::Values(LatticeKind::Rows, LatticeKind::Square, LatticeKind::Hexagonal));
 
-// All the slips of a straight pull, in steps of a length.
+// All slips of a straight pull, in steps of fixed length.
 std::vector<LatticeSlip> pull(LatticeTip& tip, const Sideways<Length>& from, const Sideways<Length>& to, int steps,
                               Energy scale) {
   std::vector<LatticeSlip> slips;
@@ -99,7 +99,7 @@ TEST_P(LatticeOfAnyKind, GivesTheSameForcesAndSlipsWhateverTheSteps) {
 TEST(HexagonalLattice, MakesTheTipZigzagWhereItIsPulledAcrossTheRows) {
   LatticeTip tip(LatticeKind::Hexagonal, kPeriod, kSpring);
   const Energy scale = scale_of_row(LatticeKind::Hexagonal, row_amplitude(5.0));
-  // a hair beside the mirror line, on which it could go either way
+  // just beside the mirror line, on which it could go either way
   const double beside = 1e-4 * kPeriod.si, across = std::numbers::sqrt3 * kPeriod.si;
   tip.land(place(beside, 0.0), scale);
   double least = 0.0, most = 0.0;
@@ -109,7 +109,7 @@ TEST(HexagonalLattice, MakesTheTipZigzagWhereItIsPulledAcrossTheRows) {
     least = std::min(least, tip.tip().x.si);
     most = std::max(most, tip.tip().x.si);
   }
-  // the wells beside the line lie half a period off it; the spring draws the tip back
+  // the wells beside the line are half a period off it; the spring draws the tip back
   EXPECT_NEAR(most - least, 0.22e-9, 0.02e-9);
 }
 
@@ -145,7 +145,7 @@ double potential(LatticeKind kind, const LatticeTip& tip, const Sideways<Length>
   return scale.si * height + 0.5 * kSpring.si * (dx * dx + dy * dy);
 }
 
-// A tip on its way, and what the way costs: -F . dX + v dU.
+// A tip that moves, and the cost of its path: -F . dX + v dU.
 struct Traveller {
   LatticeTip tip;
   Sideways<Length> at;
@@ -227,7 +227,7 @@ TEST(LatticeTip, NeverGivesEnergyOnAClosedPath) {
         slips += step.slip_count;
       }
     }
-    // back, perhaps in another well: what is stored there more or less belongs to the balance
+    // on the way back, perhaps in another well: the difference of the stored energies belongs to the balance
     const double gained = potential(kind, traveller.tip, start, start_scale) - begun - work;
     ASSERT_LE(gained, 1e-12 * all) << path;
     if (slips > 0) {

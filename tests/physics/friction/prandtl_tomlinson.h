@@ -96,7 +96,7 @@ inline std::optional<SineSlip> first_slip(const SineLattice& lattice) {
   const double before = tip_at_slip(lattice);
   const double force = k / wave_number(lattice) * std::sqrt(eta * eta - 1.0);
   const double support = before + force / k;
-  // in the next well the tip is between the place where its curvature begins, and where it would slip on
+  // in the next well the tip lies between the place where its curvature begins and the place of the next slip
   const double after = rest_between(lattice, a - before, a + before, support);
   return SineSlip{.support = Length(support),
                   .tip_before = Length(before),

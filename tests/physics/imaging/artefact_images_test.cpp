@@ -93,7 +93,7 @@ TEST(ImageOfAStepUp, ShowsTheOverloadThatAFastScanMakesAndASlowOneDoesNot) {
         settings.spring_constant.si * rise_m_per_s * tau_s * (1.0 - std::exp(-kStepM / (rise_m_per_s * tau_s)));
     double brightest_n = -1.0;
     for (std::size_t i = 0; i < kColumns; ++i) brightest_n = std::max(brightest_n, at(image, kError, i));
-    // a pixel's middle may be beside the peak
+    // the middle of a pixel may lie beside the peak
     EXPECT_NEAR(brightest_n, most_n, 0.15 * most_n) << rate_hz;
     EXPECT_EQ(brightest_n > settings.setpoint.si, rate_hz > 1.0) << rate_hz;
   }

@@ -20,7 +20,7 @@ double ground_m(double x_m, double y_m) {
   return step_m + 0.01 * x_m + 0.02 * y_m + 6e-9 / (1.0 + from_m2 / 4e-16);
 }
 
-// In units far below a force or a height that anyone measures, and far above the last bit of a cosine.
+// Digest in units far below any measurable force or height, and far above the last bit of a cosine.
 std::uint64_t digest_of(const ScanImage& image) {
   afm::core::Fnv1a digest;
   for (const ImageChannel& channel : image.channels) {
@@ -46,7 +46,7 @@ std::uint64_t image_with(void (*change)(ScanSettings&), SlowDirection direction 
 }
 
 TEST(ContactImages, AreThoseOfVersionsWithoutTapping) {
-  // computed by the program as it was before it could tap
+  // digest computed by the program before it had tapping mode
   EXPECT_EQ(image_with([](ScanSettings&) {}), 7880914753524955586U);
   EXPECT_EQ(image_with(
                 [](ScanSettings& s) {

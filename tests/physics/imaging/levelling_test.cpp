@@ -60,7 +60,7 @@ TEST(Levelling, OfLinesUndoesTheStepsBetweenThem) {
     const double jump = step(random);
     for (std::size_t column = 0; column < kColumns; ++column) raw[row * kColumns + column] += jump;
   }
-  // one bright particle moves no line
+  // one bright particle shifts no line
   for (std::size_t column = 10; column < 15; ++column) raw[12 * kColumns + column] += 500e-9;
   const auto level = levelled(raw, kColumns, kRows, Levelling::Lines).heights;
   const double shift = level[0] - straight[0];

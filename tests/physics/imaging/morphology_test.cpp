@@ -30,7 +30,7 @@ HeightGrid line(std::vector<double> heights) {
   return grid(count, 1, std::move(heights));
 }
 
-// The tables give what is below the apex as negative: T(u) there is minus the height above it.
+// Tip given by depths below the apex as negative numbers: T(u) is minus the height above it.
 TipGrid tip(std::size_t reach_columns, std::size_t reach_rows, std::vector<double> below_apex) {
   for (double& value : below_apex) value = 0.0 - value;
   return {reach_columns, reach_rows, std::move(below_apex)};

@@ -37,7 +37,7 @@ class LoopOfTheTable : public testing::TestWithParam<double> {
 
 INSTANTIATE_TEST_SUITE_P(Rates, LoopOfTheTable, testing::Values(0.5e6, 1e6, 2e6));
 
-// What a channel has of the period `period_m`, over the second half of the line: amplitude, and how far it lags.
+// Component of a channel with the period `period_m`, over the second half of the line: amplitude and lag.
 struct Wave {
   double amplitude, lag_m;
 };
@@ -53,7 +53,7 @@ Wave wave_of(const std::vector<double>& values, double width_m, double period_m)
   return {std::abs(sum), -std::arg(sum) * period_m / (2.0 * kPi)};
 }
 
-// Half of a line of 400 nm is 20 tau: what its beginning upset has faded.
+// Line of 400 nm, half of which is 20 tau: the transient at its beginning has faded.
 ScanLine scanned_sine(double loop_rate, double period_m) {
   ScanArea area;
   area.width = Length(400e-9);
@@ -97,7 +97,7 @@ TEST_P(LoopOfTheTable, A18OverloadsAtAStepUp) {
   EXPECT_NEAR((after_tau_n - 0.5e-9) / (2e-9 * std::exp(-1.0)), 1.0, 2e-3) << "it decays with tau";
 }
 
-// From a step down to contact, in seconds.
+// Time from a step down until contact, in seconds.
 double time_off_surface(ScanLoop& loop, double step_m, double tick_s) {
   int ticks = 0;
   loop.tick(-step_m);

@@ -73,7 +73,7 @@ TEST(Scanner, A28ShearsAnEdgeOfASampleThatDriftsAcross) {
   while (const auto pixel = scanner.next()) {
     if (pixel->pass == ScanPass::Trace && pixel->column == 0) first_of_line_m.push_back(asked_m.back());
   }
-  // the same place of the scanner is another one of the sample: an edge is where it is not
+  // the scanner's place corresponds to another one of the sample: an edge appears where it is not
   const double shift_m = (first_of_line_m.front() - first_of_line_m.back()) * 256.0 / 255.0;
   EXPECT_NEAR(std::atan(shift_m / area.height.si) * 180.0 / kPi, 14.35933654, 1e-6);
 }

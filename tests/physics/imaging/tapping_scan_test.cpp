@@ -280,7 +280,7 @@ TEST(TappingScan, HasChannelsInTheirUnits) {
             image_of(ideal(500.0), [](double x, double) { return 2e-9 * std::sin(x / 30e-9); }).channels[0].values);
 }
 
-// What the judge says of a surface and a sample.
+// Judgement of a surface and a sample.
 struct JudgedTap {
   double line_rate_hz = 1.0, setpoint_nm = 16.0;
   TappedSample sample{.h_zj = 1.0};

@@ -96,7 +96,7 @@ TEST_P(CarryAtRate, ASphereIsLiftedCarriedAndSetDownOnAPad) {
   expect_relative(tick.lifted_at.si, 1.5 * std::numbers::pi * 0.02 * kRadius, 1e-9);
   EXPECT_EQ(tick.state, PushState::Carried);
   EXPECT_EQ(tick.particle, 0U);
-  // it has no weight: nothing pulls at the lever, nothing is stored, and the pull's energy is lost
+  // a sphere without weight: the lever feels no pull, nothing is stored, and the pull's energy is lost
   EXPECT_EQ(magnitude(tick.lateral).si, 0.0);
   EXPECT_EQ(tick.lift.si, 0.0);
   EXPECT_NEAR(tick.stored.si, 0.0, 1e-30);
@@ -152,7 +152,7 @@ TEST(Carry, WhatStaysBehindIsAnObstacleThatDoesNotMove) {
   drag(particles, base_at(150e-9, 0.0, kOver), 1e-6, 1000.0);
   EXPECT_EQ(magnitude(particles.last().lateral).si, 0.0);
   drag(particles, base_at(60e-9, 0.0, kOver), 1e-6, 1000.0);
-  // against it, just above the sample: the lever bends by what the way is too long
+  // opposite direction, just above the sample: the lever bends by the excess of the path
   drag(particles, base_at(60e-9, 0.0, 32e-9), 1e-6, 1000.0);
   ASSERT_EQ(particles.last().state, PushState::Carried);
   const double touch_m = 150e-9 - 2.0 * kRadius - hangs_m;
@@ -301,7 +301,7 @@ struct Counted {
   std::uint64_t lifted = 0, set_down = 0, torn = 0;
 };
 
-// One closed path of 10^4 ticks among some spheres that can be lifted, and pads: the certificate of every tick.
+// Expects the certificate in every tick of a closed path of 10^4 ticks among spheres that can be lifted, and pads.
 void expect_certified(std::uint64_t seed, int spheres, Counted& counted) {
   constexpr double kRounding = 1e-12, kPlaceRounding = 1e-21;
   std::mt19937_64 random(seed);
@@ -347,7 +347,7 @@ void expect_certified(std::uint64_t seed, int spheres, Counted& counted) {
     before = surplus;
     ASSERT_GE(tick.stored.si, -1e-9 * largest - kPlaceRounding * strongest) << "seed " << seed << ", tick " << i;
     if (spheres > 1) return;
-    // what is published as stored is what is there
+    // the published stored energy is the actual one
     const auto square = [](double value) { return value * value; };
     const double lever = 0.5 * (square(magnitude(tick.lateral).si) / setup.springs.lateral.si +
                                 square(tick.lift.si) / setup.springs.normal.si);

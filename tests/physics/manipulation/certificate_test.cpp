@@ -20,7 +20,7 @@ using test::flank_tip;
 using test::gold;
 using test::latex;
 
-// Share of what the hand has given by which rounding may touch the balance, and the rounding of a place, in metres.
+// Relative rounding error of the balance, as a fraction of the energy given by the hand, and of a place, in metres.
 constexpr double kRounding = 1e-12, kPlaceRounding = 1e-21;
 
 struct Crowd {
@@ -187,7 +187,7 @@ void expect_certified(const Crowd& crowd, std::uint64_t seed, int ticks, long& t
   double before = 0.0, largest = 0.0, strongest = 0.0;
   for (int i = 0; i < ticks; ++i) {
     const PushTick& tick = particles.move_to(hand.next(), Time(1e-3));
-    // in any tick the hand gives at least what is lost and stored
+    // in any tick the hand gives at least the lost and the stored energy
     const double surplus = (tick.given - tick.lost - tick.stored).si;
     largest = std::max({largest, std::abs(tick.given.si), tick.lost.si, tick.stored.si});
     strongest = std::max({strongest, tick.normal.si, magnitude(tick.lateral).si});

@@ -111,7 +111,7 @@ TEST(Heap, RestsWithoutOverlapsBeyondItsForces) {
   EXPECT_GE(at_once, 5);
 }
 
-// A replay begins where the tip is held over the places: nothing else may be left of what happened before.
+// A replay begins with the tip held above the places: no other trace of earlier events may remain.
 TEST(Heap, LeavesNothingButItsPlacesOnceTheTipIsHeldOverIt) {
   const PushSetup setup = gold_setup();
   PushedParticles pushed(setup, hexagon(), base_at(-215e-9, 3e-9, 5e-9));

@@ -79,7 +79,7 @@ TEST(Ink, WhatFindsNoBareSquareWithinReachIsLost) {
   EXPECT_NEAR(surface.covered().si + surface.lost().si, inked_area(kThiol, Time(1.0)).si, 5e-18) << "ignored";
 }
 
-// Fewer looks only delay what flows; tiles carry all that is covered.
+// Fewer looks only delay the flow; tiles contain all covered places.
 TEST(Ink, WithFewLooksALittleLater) {
   InkedSurface surface = gold(), slow = gold();
   const auto go = [](InkedSurface& inked, std::size_t most_looks) {

@@ -107,7 +107,7 @@ TEST(LimitSurfaceOfADisc, IsAnEllipsoidUpToSomePercent) {
   expect_relative(f, 0.8488263336, 1e-3);
   expect_relative(m, 0.4244130489, 1e-3);
   expect_relative(f * f + m * m, 0.9006325806, 1e-3);
-  // by the ellipsoid, the friction is the work of the same motion, and too large by half of what is missing
+  // for the ellipsoid the friction is the work of the same motion, and too large by half of the missing part
   const double exact = f * 1.0 + m * 2.0 / 3.0;
   expect_relative(island_way(1.0, 1.0, 1.0), exact, 0.065);
   EXPECT_GT(island_way(1.0, 1.0, 1.0), exact);
@@ -120,7 +120,7 @@ TEST(IslandThatTheTipHolds, IsLostMoreSlowlyThanASphere) {
   expect_relative(island_travel_until_lost(0.05, holds), 5.327477808, 1e-6);
   expect_relative(kIslandTurning, 0.6923076923, 1e-9);
   EXPECT_GT(island_travel_until_lost(0.05, holds), travel_until_lost(0.05));
-  // without friction at the tip it does not turn
+  // without friction at the tip the island does not turn
   expect_relative(island_travel_until_lost(0.05, 0.0), travel_until_lost(0.05), 1e-9);
   EXPECT_EQ(island_angle_after(3.0, 0.0, 0.3), 0.0);
   expect_relative(island_angle_after(2.0, -0.1, 0.3), -island_angle_after(2.0, 0.1, 0.3), 1e-15);

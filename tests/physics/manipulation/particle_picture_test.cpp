@@ -96,7 +96,7 @@ TEST(PushCases, N77TheTimeOfASecondLook) {
   EXPECT_EQ(scan_time(128, 2_Hz), 64_s);
   EXPECT_EQ(scan_time(kLookLines, 2_Hz), Time(16.5));
   expect_relative(scan_time(kLookLines, 10_Hz).si, 3.3, 1e-9);
-  // so many lines have three footprint radii to each side
+  // this many lines have three footprint radii to each side
   const PushSetup setup = setup_of({test::gold()});
   const PictureFrame frame = frame_around(setup, {particle_at(0, 0)});
   expect_relative(frame.pixel.si * (kLookLines - 1), 6.0 * 4.02539042e-08, 1e-6);

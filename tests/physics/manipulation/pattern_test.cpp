@@ -19,7 +19,7 @@ using Places = std::vector<Sideways<Length>>;
 
 Sideways<Length> at_nm(double x, double y) { return {Length(1e-9 * x), Length(1e-9 * y)}; }
 
-// By trying every order of the particles.
+// Least distance, found by trying every order of the particles.
 double least_rms_m(const Places& targets, const Places& particles) {
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), 0U);

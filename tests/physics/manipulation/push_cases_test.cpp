@@ -282,7 +282,7 @@ TEST(PushCases, N32AndN33Aim) {
 }
 
 TEST(PushCases, N39TheFastestHandThatSteers) {
-  // on a scale of 1e5, as the hand feels it
+  // at a scale of 1e5, as felt by the hand
   expect_relative(1e5 * fastest_steering(40_nm, Time(0.25)).si, 0.016, 1e-9);
   expect_relative(1e5 * fastest_steering(40_nm, Time(0.15)).si, 0.02666666667, 1e-9);
 }

@@ -118,7 +118,7 @@ TEST_P(AtRate, AgesWhileItRests) {
   expect_relative(particles.last().threshold.si, 1.5e-9 * (2.0 - std::exp(-1.0)), 1e-9);
 }
 
-// From N31 on: the path of a sphere beside the middle.
+// Path of a sphere beside the middle, from row N31 on.
 struct Offset {
   double given;  // offset of the centre from the tip's path, relative to rho
   double after;  // travel relative to rho

@@ -47,7 +47,7 @@ PushSetup thin_setup(double kinetic_ratio = 1.0) {
 
 double touch_m() { return side_contact(flank_tip(Length(kRadiusM)), Length(kRadiusM), Length(0.0)).distance.si; }
 
-// A rod along x in the middle, and a tip lowered beside it at s from its middle.
+// A rod along x in the middle, and a tip lowered beside it at the distance s from its middle.
 PushedParticles lowered_beside(double s_m, const PushSetup& setup = thin_setup(), double rate_hz = 1000.0) {
   PushedParticles particles(setup, {{.species = 0, .position = {}}}, base_at(s_m, -20e-9, 10e-9));
   drag(particles, base_at(s_m, -20e-9), 1e-7, rate_hz);
@@ -127,7 +127,7 @@ TEST(Rod, N48AndN49FollowTheFreePathAtAnyRate) {
   RodPlace first;
   for (const double rate_hz : {500.0, 1000.0, 4000.0}) {
     PushedParticles particles = lowered_beside(0.3e-6, thin_setup(), rate_hz);
-    // the base is behind the tip by what the lever bends
+    // the base is behind the tip by the lever's deflection
     const double bend_m = 0.5 * kThresholdN / 100.0;
     drag(particles, base_at(0.3e-6, (0.5 - rho) * kLengthM + bend_m), 5e-7, rate_hz);
     const RodPlace at = place_of(particles);
@@ -156,7 +156,7 @@ TEST(Rod, N50TurnsAboutAFixedPointWhenItsEndIsPushed) {
   const RodPlace at = place_of(particles);
   EXPECT_NEAR(degrees(at.angle), degrees(turn), 0.1);
   EXPECT_NEAR(at.y, pivot * std::sin(turn), 1e-3);
-  // at the very end, as the table has it
+  // at the very end, as in the table
   const double end = 0.5 + rod_pivot(Length(1.0), Length(0.5)).si;
   expect_relative(degrees(0.3 / end), 24.30854054, kClosed);
   expect_relative((end - 0.5) * std::sin(0.3 / end), 0.0852555496, kClosed);
@@ -252,7 +252,7 @@ TEST(Rod, PushesASphereAndAnotherRod) {
   EXPECT_GT(particles.position(1).y, 120_nm);
   EXPECT_GT(magnitude(particles.position(2) - placed[2].position), 20_nm);
   EXPECT_EQ(particles.turn(1), HalfTurn{});
-  // nothing lies in anything else by more than the contacts bear
+  // no particle overlaps another by more than the contacts allow
   EXPECT_GT(magnitude(particles.position(1) - particles.nearest(0, particles.position(1))), 49_nm);
 }
 

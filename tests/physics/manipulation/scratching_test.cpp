@@ -27,7 +27,7 @@ using test::scratch;
 
 constexpr double kStep = 0.1e-9;  // step of a tick at 0.1 um/s and 1 kHz
 
-// What a tip meets on a way at about 100 nN, on the mean of its second half.
+// Mean results of a tip on a path at about 100 nN, over its second half.
 struct Mean {
   double load_n = 0.0, lateral_n = 0.0, depth_m = 0.0;
 };
@@ -87,7 +87,7 @@ TEST(Scratching, ADraggedTipDigsAsInN60AndN62) {
     EXPECT_NEAR(section.width.si, 2.0 * radius.si, 0.12 * 2.0 * radius.si) << angle;
     const double left_m = mean.depth_m - spring_back(pmma(), Force(mean.load_n), radius).si;
     EXPECT_NEAR(section.depth.si, left_m, 0.1 * left_m) << angle;
-    // ridges of what has not sprung back: of the section, two thirds of width times height less
+    // ridges of the material that has not sprung back: the section less two thirds of width times height
     const Area stays = groove_section(marking_tip(), depth) -
                        2.0 / 3.0 * (spring_back(pmma(), Force(mean.load_n), radius) * (2.0 * radius));
     const double ridge_m = ridge_height(stays, 0.7, 2.0 * radius).si;
@@ -108,7 +108,7 @@ TEST(Scratching, EveryPassDigsLessAndVolumesAreKept) {
         tip.surface().section(base_at(-100e-9, 3e-9).position, base_at(100e-9, 3e-9).position);
     dug_m.push_back(section.depth.si - before_m);
     before_m = section.depth.si;
-    // of the books and of the grid
+    // volumes according to the books and to the grid
     const MarkVolumes volumes = tip.surface().volumes();
     const double for_good_m3 = (volumes.pressed - volumes.sprung_back).si;
     EXPECT_NEAR((tip.surface().below() - tip.surface().above()).si, for_good_m3 - volumes.ridges.si,
@@ -140,7 +140,7 @@ TEST(Scratching, TheGrooveDoesNotDependOnTheRateOfTicks) {
   }
 }
 
-// In its own imprint a tip is borne without marking, up to the load that made it.
+// In its own imprint a tip does not mark, up to the load that made the imprint.
 TEST(Scratching, AnImprintBearsTheLoadThatMadeIt) {
   ScratchingTip tip = on_pmma();
   press(tip, -60e-9);
@@ -253,7 +253,7 @@ TEST(Scratching, IgnoresPlacesWhereThereIsNoSurface) {
   EXPECT_THROW(on_field(100e-9, 1e-6), std::invalid_argument);
 }
 
-// No path of the hand takes energy out of the lever, and the surface only takes: N65.
+// No path of the hand takes energy out of the lever, and the surface only absorbs energy: N65.
 TEST(ScratchCertificate, HoldsOnRandomPaths) {
   const int paths = support::deep() ? 60 : 6, ticks = 3000;
   long marks = 0;
@@ -292,7 +292,7 @@ TEST(ScratchCertificate, HoldsOnRandomPaths) {
     EXPECT_NEAR((tip.surface().below() - tip.surface().above()).si,
                 (volumes.pressed - volumes.sprung_back - volumes.ridges).si, 1e-6 * volumes.pressed.si);
     EXPECT_GE(volumes.densified.si, -1e-9 * volumes.pressed.si);
-    // a way back to the start gives the hand nothing
+    // a path back to the start gives the hand no energy
     scratch(tip, base_at(x, y, 50e-9), 1e-9);
     EXPECT_EQ(tip.last().stored.si, 0.0);
     EXPECT_GE(tip.last().work.si, -1e-12 * largest_j);

@@ -135,7 +135,7 @@ TEST_P(HoldAtRate, N55ATipThatGoesAwayDragsTheSphere) {
   const PushTick& tick = particles.last();
   EXPECT_EQ(tick.torn, 0U);
   EXPECT_EQ(tick.dragged, 1U);
-  // at rest it bears f_s(-N sin)
+  // at rest the contact holds f_s(-N sin)
   double held = 0.0;
   for (int i = 0; i < 50; ++i) held = threshold_under_pull(setup.species.front(), Force(held * kSine)).si / kCosine;
   expect_relative(tick.dragged_at.si, held * kCosine, 1e-2);
@@ -172,7 +172,7 @@ TEST_P(HoldAtRate, N56AContactThatASphereResistsTearsAtItsPullOff) {
     EXPECT_GT(most, pull_off - 10.0 * step_m);
     expect_relative(tick.torn_at.si, pull_off, 1e-12);
     expect_relative(tick.torn_lost.si, 1.182036707e-18, 1e-6);
-    // free at once: no force, nothing stored, and all work of the hand is lost
+    // released at once: no force, no stored energy, and all work of the hand is lost
     EXPECT_EQ(tick.particle, kNoParticle);
     EXPECT_NEAR(magnitude(tick.lateral).si, 0.0, 1e-18);
     EXPECT_NEAR(tick.lift.si, 0.0, 1e-18);
@@ -230,7 +230,7 @@ TEST(TipHold, EachContactHasItsOwnPullOff) {
     EXPECT_EQ(particles.last().torn, contact + 1);
     expect_relative(particles.last().torn_at.si, pull_off * pull_off_factor(7, 0, contact), 1e-12);
   }
-  // what follows a lift depends on the places alone
+  // the sequel to a lift depends only on the places
   particles.hold_over(base_at(0.0, 0.0, 100e-9));
   drag(particles, base_at(0.0, 0.0, kHeight), 1e-7, 1000.0);
   drag(particles, base_at(1.1e-9, 0.0, kHeight), 1e-8, 1000.0);
@@ -252,7 +252,7 @@ struct Counted {
   std::uint64_t attached = 0, dragged = 0, torn = 0;
 };
 
-// One path of 10^4 ticks among some spheres that stick, with lifts: the certificate of every tick.
+// Expects the certificate in every tick of a path of 10^4 ticks among spheres that stick, with lifts.
 void expect_certified(std::uint64_t seed, int spheres, Counted& counted) {
   constexpr double kRounding = 1e-12, kPlaceRounding = 1e-21;
   std::mt19937_64 random(seed);
@@ -298,7 +298,7 @@ void expect_certified(std::uint64_t seed, int spheres, Counted& counted) {
     ASSERT_GE(surplus - before, -kRounding * largest - kPlaceRounding * strongest) << "seed " << seed << ", tick " << i;
     before = surplus;
     if (spheres > 1) continue;
-    // what is published as stored is what is there
+    // the published stored energy is the actual one
     const auto square = [](double value) { return value * value; };
     const double lever = 0.5 * (square(magnitude(tick.lateral).si) / setup.springs.lateral.si +
                                 square(tick.lift.si) / setup.springs.normal.si);

@@ -116,7 +116,7 @@ TEST(SwingAverages, AreThoseOfAFineSumInContact) {
 }
 
 TEST(SwingAverages, LoseTheLatchOfJkrOnceASwing) {
-  // between the neck's end and contact at h = 0 only the way up pulls; a swing that stays above loses nothing
+  // between the end of the neck and contact at h = 0 only the way up pulls; a swing that stays above loses nothing
   const auto surface = TappedSample{}.surface(Law::Jkr);
   const double rate = 1e6;
   const double lost = surface->averages({10_nm, 9_nm, rate}).lost.si;
@@ -153,7 +153,7 @@ TEST(AveragedFlow, HasThreeStatesWhereItIsBistable) {
   EXPECT_TRUE(taps[0].stable);
   EXPECT_FALSE(taps[1].stable);
   EXPECT_TRUE(taps[2].stable);
-  // from a solver that shifts the lowest point by the mean deflection alone, and so is 0.05 % off direct integration
+  // values of a solver that shifts the lowest point by the mean deflection alone, 0.05 % off direct integration
   EXPECT_NEAR(nm_of(taps[0].state.amplitude), 17.4935, 1e-3 * 17.5);
   EXPECT_NEAR(degrees_of(taps[0].state.phase), 118.99, 0.15);
   EXPECT_NEAR(nm_of(taps[2].state.amplitude), 18.8572, 1e-3 * 18.9);

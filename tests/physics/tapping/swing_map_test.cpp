@@ -52,7 +52,7 @@ TEST(SwingMap, FindsTheRepulsiveStateOfASoftLeverThatAveragesLack) {
   SwingMap map(kSoft.surface(), kSoft.lever());
   const std::vector<DirectSwing> beside = map.stable_beside(averaged, kSoftHeight);
   ASSERT_EQ(beside.size(), 1U);
-  // by direct integration with sixteen times the steps
+  // value of direct integration with sixteen times as many steps
   EXPECT_NEAR(nm_of(beside[0].state.amplitude), 7.524536, 1e-4);
   EXPECT_NEAR(degrees_of(beside[0].state.phase), 53.4237, 0.05);
   EXPECT_GT(beside[0].averages.contact_share, 0.02);
@@ -67,7 +67,7 @@ TEST(SwingMap, FindsAStateThatFewStartsReach) {
   SwingMap map(deep.surface(), deep.lever());
   const std::vector<DirectSwing> beside = map.stable_beside(averaged_at(deep, kHeight), kHeight);
   ASSERT_EQ(beside.size(), 1U);
-  // by direct integration with sixteen times the steps
+  // value of direct integration with sixteen times as many steps
   EXPECT_NEAR(nm_of(beside[0].state.amplitude), 40.5428, 1e-3);
   EXPECT_NEAR(degrees_of(beside[0].state.phase), 62.506, 0.1);
 }

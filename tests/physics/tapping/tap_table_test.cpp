@@ -80,7 +80,7 @@ TEST(TapTable, HasTheSwingsOfDirectIntegration) {
   }
 }
 
-// At a height with two states, a free swing and a lever that starts at rest each end in one of the table's.
+// At a height with two states, a free swing and a lever at rest each settle in one of the table's states.
 TEST(TapTable, HasTheStatesInWhichALeverSettles) {
   const std::shared_ptr<const TapTable> rests = bistable()->taps;
   const CycleFigures& figures = bistable()->figures;

@@ -27,7 +27,7 @@ namespace tapping_criteria_test {
 using namespace literals;
 using support::deep;
 
-// One task for each set-up, on all cores: fills in its result.
+// Runs one task for each set-up, on all cores, which fills in its result.
 template <class Case>
 void run_all(std::vector<Case>& cases, const std::function<void(Case&)>& task) {
   std::atomic<std::size_t> next = 0;
@@ -46,7 +46,7 @@ std::string text_of(const TappedSample& s) {
          text(" E ", s.e_gpa);
 }
 
-// How far a swing is from a root: amplitude as a share of both, phase in degrees.
+// Distance of a swing from a root: amplitude relative to both, phase in degrees.
 struct Apart {
   double share, degrees;
 };
@@ -103,7 +103,7 @@ void rest(RestCase& one) {
     tip.place(one.z, beginning_of(roots[i]));
     (void)tip.settle();
     TapState direct = resting_tap(tip.settle()).state;
-    // another state, also one that is not among the roots
+    // another state, perhaps one that is not among the roots
     if (nearest_root(roots, direct) != static_cast<int>(i) || apart(direct, roots[i].state).degrees > 10.0) {
       ++one.elsewhere;
       continue;
@@ -117,7 +117,7 @@ void rest(RestCase& one) {
       direct = resting_tap(finer.settle()).state;
     }
     RestCase::Pair pair{roots[i].state, roots[i].state, direct};
-    // for a hand a swing of less than a twentieth of the free one is stopped
+    // for a hand, a swing below a twentieth of the free one counts as stopped
     if (one.with_envelope && roots[i].state.amplitude > 0.05 * one.sample.lever().free_amplitude) {
       if (!envelope) envelope.emplace(flow, surface->contact_height());
       envelope->place(roots[i].state, one.z.si);
@@ -310,7 +310,7 @@ TEST(TappingDeep, DirectIntegrationBracketsTheFolds) {
                                   .e_gpa = random.between(1.0, 4.0)}});
   }
   run_all<FoldCase>(cases, bracket);
-  // in the others the swing changes without a jump
+  // other set-ups change their swing without a jump
   std::erase_if(cases, [](const FoldCase& one) { return one.brackets.empty(); });
   EXPECT_GE(cases.size(), deep() ? 10U : 1U);
   for (const FoldCase& one : cases) {

@@ -43,7 +43,7 @@ struct Path {
   double work_of_push_j = 0, work_of_mean_j = 0;  // work on the hand
 };
 
-// From one height to another at this speed; the forces act from one tick to the next.
+// Moves from one height to another at this speed; the forces act from one tick to the next.
 void move(TappingModel& model, double from_nm, double to_nm, double nm_per_tick, Path& path) {
   const int ticks = std::max(1, static_cast<int>(std::ceil(std::abs(to_nm - from_nm) / nm_per_tick)));
   const double step_nm = (to_nm - from_nm) / ticks;

@@ -18,7 +18,7 @@ using support::deep;
 
 constexpr double kPi = std::numbers::pi;
 
-// Criterion: a lever that touches nothing is exact for any step.
+// Criterion: the result for a lever that touches nothing is exact for any step.
 TEST(TappingOscillator, IsExactWithoutASample) {
   for (const double ratio : {0.5, 0.9, 1.0, 1.37, 1.5}) {
     for (const int steps : {8, 16, 100, 500}) {
@@ -40,7 +40,7 @@ struct DirectRow {
   double amplitude_nm, phase_deg, mean_nn, peak_nn, depth_nm, deflection_nm;
 };
 
-// By RK4 with 1600 and 3200 steps a swing, which agree; from a solver that is not this program's.
+// Results of RK4 with 1600 and 3200 steps per swing, which agree; from a solver independent of this program.
 const DirectRow kDirectRows[] = {
     {{}, 18.5, true, 18.4434161, 112.75438, -0.390106, -0.000156, 0.106299, -0.009753},
     {{}, 17.5, true, 18.9237749, 71.11817, 0.308721, 10.183526, 1.595137, 0.007718},

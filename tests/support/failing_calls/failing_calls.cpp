@@ -59,7 +59,7 @@ void say(const char* format, ...) {
   [[maybe_unused]] const auto written = ::syscall(SYS_write, report, line.data(), length);
 }
 
-// Lines and FNV-1a of what is in a file.
+// Number of lines and FNV-1a of a file's contents.
 struct Text {
   int lines = 0;
   std::uint64_t hash = 14695981039346656037ULL;
@@ -162,7 +162,7 @@ int main_that_fails(int argc, char** argv, char** environment) {
     owner = ::getpid();
     of_program_alone = std::getenv("AFM_FAIL_PROGRAM") != nullptr;
     ::dl_iterate_phdr(find_program, nullptr);
-    // what is started is not touched
+    // programs that this one starts must not inherit it
     ::unsetenv("LD_PRELOAD");
     armed = memory ? What::Memory : What::Calls;
   }

@@ -45,7 +45,7 @@ Fault read_fault() {
   return {all.substr(0, colon), std::atoi(all.c_str() + colon + 1), all.substr(colon + 1)};
 }
 
-// One instance and one device at a time, as the program has them.
+// State of the one instance and the one device that the program has at a time.
 Fault the_fault;
 PFN_vkGetInstanceProcAddr next_instance = nullptr;
 PFN_vkGetDeviceProcAddr next_device = nullptr;
@@ -61,13 +61,13 @@ Function next(const char* name) {
   return reinterpret_cast<Function>(next_device(the_device, name));
 }
 
-// Whether the fault of that kind has come; `count` counts what leads to it.
+// True if the fault of that kind has come; `count` counts the calls that lead to it.
 bool failing(const char* kind, std::atomic<int>& count, int add) {
   return the_fault.kind == kind && (count += add) >= the_fault.after;
 }
 bool lost(int add) { return failing("lost", submissions, add); }
 
-// Whether a wait ends without what it waits for, once it has taken its time.
+// True if a wait ends in a timeout, after the time that it takes.
 bool waits_in_vain(std::uint64_t timeout_ns) {
   if (the_fault.kind != "stuck" || ::access(the_fault.file.c_str(), F_OK) != 0) {
     return failing("hung", submissions, 0);
@@ -231,7 +231,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical, const Vk
       in_chain<VkPhysicalDeviceVulkan11Features>(info->pNext, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
   const bool asked = multiview != nullptr && multiview->multiview == VK_TRUE;
   if (the_fault.kind == "one-view" && asked) return VK_ERROR_FEATURE_NOT_PRESENT;
-  // what the driver has not
+  // device features that the driver lacks
   VkDeviceCreateInfo own = *info;
   std::vector<const char*> extensions;
   for (std::uint32_t i = 0; i < info->enabledExtensionCount; ++i) {

@@ -37,7 +37,7 @@ const Rule* rule_for(const char* function) {
   return nullptr;
 }
 
-// 0, or what a test wants of this call for a device.
+// 0, or the error of this call for a device, as prescribed by a test.
 int begin(const char* function, char id) {
   if (id < kFirstId || id >= kFirstId + kMostDevices || !mock.open[static_cast<std::size_t>(id - kFirstId)]) {
     forbid("a device that is not open was called");

@@ -129,7 +129,7 @@ void Mock::play_script() {
   buttons = moment.buttons;
 }
 
-// What the real driver watches after every tick: beyond a limit it says so and switches its amplifiers off for a while.
+// Checks of the real driver after every tick: beyond a limit it reports an error and disables its amplifiers briefly.
 void Mock::judge_tick() {
   const Vector force = applied_force();
   const Vector position = load(position_mm);

@@ -67,7 +67,7 @@ int open_tap(const std::string& space) {
   return tap;
 }
 
-// To a group, but not to all: those are the questions for addresses.
+// True for a frame to a group, but not to all: questions for addresses go to all.
 bool is_multicast(std::span<const char> ethernet_frame) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(ethernet_frame[i]); };
   return (byte(0) & 1U) != 0 && byte(0) != 0xff;

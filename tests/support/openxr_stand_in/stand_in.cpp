@@ -206,7 +206,7 @@ XrResult XRAPI_CALL create_action_set(XrInstance, const XrActionSetCreateInfo* i
   return XR_SUCCESS;
 }
 
-// Of one instance after the other: the last ones are kept until the end.
+// Actions of several instances in turn: the last ones are kept until the end.
 XrResult XRAPI_CALL create_action(XrActionSet, const XrActionCreateInfo* info, XrAction* action) {
   AFM_ENTER("xrCreateAction");
   if (info->localizedActionName[0] == '\0') return XR_ERROR_LOCALIZED_NAME_INVALID;
@@ -300,7 +300,7 @@ XrResult XRAPI_CALL get_proc(XrInstance, const char* name, PFN_xrVoidFunction* f
 
 PFN_xrGetInstanceProcAddr instance_call() { return get_proc; }
 
-// As the loader's interface has them; Debian 12's headers lack them.
+// Structure of the loader's interface, missing in Debian 12's headers.
 struct LoaderInfo {
   std::uint32_t type, version;
   std::size_t size;

@@ -216,7 +216,7 @@ XrResult XRAPI_CALL release(XrSwapchain handle, const XrSwapchainImageReleaseInf
   return XR_SUCCESS;
 }
 
-// Not under the mutex while it keeps the program waiting.
+// The mutex must not be locked while the program waits here.
 XrResult XRAPI_CALL wait_frame(XrSession, const XrFrameWaitInfo*, XrFrameState* frame) {
   StandIn& s = stand_in();
   std::unique_lock lock(s.mutex);

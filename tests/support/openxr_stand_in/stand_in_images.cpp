@@ -58,7 +58,7 @@ VkImageAspectFlags aspect_of(const Swapchain& chain) {
   return chain.has_depth() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-// In which the specification lends images.
+// Layout in which the specification lends images.
 VkImageLayout lent_layout(const Swapchain& chain) {
   return chain.has_depth() ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
                            : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
