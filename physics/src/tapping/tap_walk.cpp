@@ -49,10 +49,11 @@ struct Walked {
 // From rest at one height to rest at another, along the branch as far as it goes.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
                   Walked& walked) {
-  constexpr int kMostFalseFolds = 4;     // more show that averages are no way to follow this swing
-  constexpr int kMostTries = 400;        // a fold takes some 100; more where Newton's method only creeps
-  constexpr double kFoldError = 1e-18;   // m
-  constexpr double kBeyondFold = 2e-12;  // m, from where the flow leaves the fold's neighbourhood in finite time
+  constexpr int kMostFalseFolds = 4;       // more show that averages are no way to follow this swing
+  constexpr int kMostTries = 400;          // a fold takes some 100; more where Newton's method only creeps
+  constexpr int kMostTriesOfOlder = 4000;  // an older session's walk that creeps to an end stays as it was
+  constexpr double kFoldError = 1e-18;     // m
+  constexpr double kBeyondFold = 2e-12;    // m, from where the flow leaves the fold's neighbourhood in finite time
   const double way = to.si - from.si;
   TapState here = state;
   const bool known = std::exchange(walked.follows, false);
@@ -69,7 +70,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
   double at = from.si, step = way;
   int tries = 0;
   while (at != to.si) {
-    if (++tries > kMostTries && !flow.is_as_felt()) {
+    if (++tries > (flow.is_of_older_sessions() ? kMostTriesOfOlder : kMostTries)) {
       curve.lost_at = Length(at);
       return;
     }
