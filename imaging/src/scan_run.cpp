@@ -82,7 +82,7 @@ core::Result<physics::TappingDetector> detector_of(const ScanRequest& request, c
       setpoint_of(request.amplitude_setpoint.empty() ? "0.8" : request.amplitude_setpoint, lever.free_amplitude);
   if (!setpoint) return tl::unexpected(setpoint.error());
   try {
-    return physics::TappingDetector(driven->surface, lever, *setpoint, physics::TappingDetector::Harmonics::OfTheDrive);
+    return physics::TappingDetector(driven->surface, lever, *setpoint);
   } catch (const physics::UnphysicalValue& error) {
     return wrong_usage(error.what());
   }

@@ -249,8 +249,7 @@ core::Result<std::optional<physics::TappingDetector>> SimulatedInstrument::detec
   if (!sample) return tl::unexpected(sample.error());
   try {
     return physics::TappingDetector(sample->surface, sample->lever,
-                                    settings_.amplitude_setpoint * sample->lever.free_amplitude,
-                                    physics::TappingDetector::Harmonics::OfTheDrive);
+                                    settings_.amplitude_setpoint * sample->lever.free_amplitude);
   } catch (const physics::UnphysicalValue& error) {
     return wrong_usage(error.what());
   }

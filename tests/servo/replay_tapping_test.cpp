@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
+#include "core/fnv1a.h"
 #include "core/whole_file.h"
 #include "servo/recorded_servo.h"
 #include "servo/session_file.h"
@@ -48,7 +50,7 @@ TEST(Replay, GivesASwingAgain) {
   ASSERT_TRUE(save_session(recording.sessions.front(), path));
   const auto bytes = core::read_file(path);
   ASSERT_TRUE(bytes);
-  EXPECT_EQ(bytes->at(4), 10);  // version
+  EXPECT_EQ(bytes->at(4), 21);  // version
   const auto loaded = load_session(path);
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->parameters.free_amplitude_m, 20e-9);
@@ -106,6 +108,56 @@ TEST(Replay, RefusesASwingThatNoHandCanFeel) {
   const auto loop = haptics::ServoLoop::create(*segment, device, {.rate_hz = 1000.0});
   ASSERT_FALSE(loop);
   EXPECT_NE(loop.error().message.find("relaxation"), std::string::npos) << loop.error().message;
+}
+
+// The forces and swings of the hand, in units far below what is felt and far above the last bit of a cosine.
+std::uint64_t digest_of(const RecordedSession& session) {
+  core::Fnv1a digest;
+  const auto add = [&digest](double value, double unit) {
+    const auto units = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::nearbyint(value / unit)));
+    for (int shift = 0; shift < 64; shift += 8) digest.add(static_cast<unsigned char>(units >> shift));
+  };
+  for (const scene::TipSample& sample : session.samples) {
+    add(sample.hand_force_n, 0x1p-40);
+    add(sample.swing.amplitude_m, 0x1p-70);
+    add(sample.swing.phase_rad, 0x1p-40);
+  }
+  return digest.value();
+}
+
+RecordedSession tapped_beside_resonance(bool as_of_older_versions) {
+  auto model = tapped_model();
+  model.materials[test::kMica].drive_hz = 303e3;
+  model.materials[test::kMica].harmonics_at_resonance = as_of_older_versions ? 1 : 0;
+  Recording recording(model);
+  recording.choose(test::kMica);
+  recording.arm();
+  recording.aim(0.002, 0.3);
+  recording.run(400);
+  recording.aim(0.065, 0.3);
+  recording.run(400);
+  return recording.sessions.front();
+}
+
+// Version 10 does not name the harmonics, which were those at the resonance.
+TEST(Replay, GivesASwingBesideTheResonanceAgainAsItsVersionHadIt) {
+  const support::ScratchFolder folder;
+  const std::string path = folder.file("tapping.afms");
+  for (const bool older : {true, false}) {
+    SCOPED_TRACE(older);
+    ASSERT_TRUE(save_session(tapped_beside_resonance(older), path));
+    const auto bytes = core::read_file(path);
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(bytes->at(4), older ? 10 : 21);
+    EXPECT_EQ(bytes->find("\"harmonics\"") == std::string::npos, older);
+    const auto loaded = load_session(path);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    EXPECT_EQ(loaded->parameters.harmonics_at_resonance, older ? 1U : 0U);
+    // computed by the program that had no other harmonics
+    constexpr std::uint64_t kBeforeVersion21 = 14042984769111705009U;
+    EXPECT_EQ(digest_of(*loaded) == kBeforeVersion21, older);
+    expect_same(*loaded);
+  }
 }
 
 }  // namespace replay_tapping_test

@@ -79,8 +79,7 @@ void LiveScan::prepare_detector() {
   const TappedSubject& tapped = *subject_.tapped;
   const ScanChoice tapping = usual_tapping_choice(subject_.tip_radius_m, subject_.side_m, subject_.slope, tapped.lever);
   try {
-    detector_.emplace(tapped.surface, tapped.lever, tapping.setpoint_n * tapped.lever.free_amplitude,
-                      physics::TappingDetector::Harmonics::AtResonance, tapped.rests);
+    detector_.emplace(tapped.surface, tapped.lever, tapping.setpoint_n * tapped.lever.free_amplitude, tapped.rests);
     usual_ = tapping;
   } catch (const physics::UnphysicalValue&) {
     detector_.reset();

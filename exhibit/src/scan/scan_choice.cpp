@@ -151,8 +151,11 @@ physics::DrivenLever driven_by(const ScanChoice& choice, const physics::DrivenLe
   if (!(share >= kLeastAmplitude - kSlack && share <= kMostAmplitude + kSlack))
     throw physics::UnphysicalValue("free_amplitude", "outside what the table of swings covers");
   if (!(widths <= kMostWidths + kSlack)) throw physics::UnphysicalValue("drive", "too far from the resonance");
-  return physics::driven_lever(own.spring_constant, {own.resonance, own.quality_factor, physics::Temperature()},
-                               {physics::Length(amplitude_m), physics::Frequency(hz)});
+  physics::DrivenLever driven =
+      physics::driven_lever(own.spring_constant, {own.resonance, own.quality_factor, physics::Temperature()},
+                            {physics::Length(amplitude_m), physics::Frequency(hz)});
+  driven.harmonics = own.harmonics;
+  return driven;
 }
 
 ScanChoice usual_choice(double tip_radius_m, double side_m, double slope, double adhesion_n) {

@@ -67,8 +67,8 @@ std::optional<HeldSwing> first_held(AveragedFlow& flow, double contact_m, double
 }  // namespace
 
 TappingDetector::TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
-                                 Length setpoint, Harmonics harmonics, std::shared_ptr<const TapTable> rests)
-    : surface_(surface), lever_(lever), harmonics_(harmonics), rests_(std::move(rests)) {
+                                 Length setpoint, std::shared_ptr<const TapTable> rests)
+    : surface_(surface), lever_(lever), rests_(std::move(rests)) {
   const bool averages = lever.quality_factor >= AveragedFlow::kLeastQuality;
   if (!averages && !rests_) rests_ = std::make_shared<const TapTable>(surface, lever);
   hold(setpoint);
@@ -85,7 +85,6 @@ TappingDetector::~TappingDetector() = default;
 TappingDetector::TappingDetector(const TappingDetector& other)
     : surface_(other.surface_),
       lever_(other.lever_),
-      harmonics_(other.harmonics_),
       rests_(other.rests_),
       setpoint_m_(other.setpoint_m_),
       engaged_(other.engaged_),
@@ -96,7 +95,7 @@ TappingDetector& TappingDetector::operator=(TappingDetector&& other) noexcept = 
 
 // Flow of the averages; for a lever driven at its resonance every image is that of earlier versions.
 AveragedFlow TappingDetector::averaged_flow() const {
-  const bool exact = harmonics_ == Harmonics::OfTheDrive && lever_.ratio != 1.0;
+  const bool exact = lever_.harmonics == Harmonics::OfTheDrive && lever_.ratio != 1.0;
   return {surface_, lever_, exact ? AveragedFlow::Search::Exact : AveragedFlow::Search::AsFelt};
 }
 

@@ -17,18 +17,24 @@ constexpr double kShiftShare = 1e-7;       // error of a shift, as a fraction of
 constexpr double kCoarse = 300.0;          // errors of averages that no derivative is taken of, in those of the others
 constexpr double kLeastSlope = -0.2;       // slope of <F G>/k - x; no step is longer than five times what is missing
 
+// At the resonance every felt swing is that of earlier versions.
+bool answers_at_drive(AveragedFlow::Search search, const DrivenLever& lever) {
+  return search == AveragedFlow::Search::Exact || (lever.harmonics == Harmonics::OfTheDrive && lever.ratio != 1.0);
+}
+
 }  // namespace
 
 AveragedFlow::AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever, Search search)
     : surface_(std::move(surface)),
       lever_(lever),
       search_(search),
+      answers_at_drive_(answers_at_drive(search, lever)),
       k_(lever.spring_constant.si),
       a_(lever.base_amplitude.si),
       r_(lever.ratio),
       q_(lever.quality_factor),
-      harmonics_ratio_(search == Search::Exact ? lever.ratio : 1.0),
-      shape_(std::make_unique<SwingShape>(HarmonicResponse(k_, harmonics_ratio_), search == Search::Exact)) {}
+      harmonics_ratio_(answers_at_drive_ ? lever.ratio : 1.0),
+      shape_(std::make_unique<SwingShape>(HarmonicResponse(k_, harmonics_ratio_), answers_at_drive_)) {}
 
 AveragedFlow::~AveragedFlow() = default;
 

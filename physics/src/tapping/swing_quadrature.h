@@ -15,7 +15,7 @@ struct SwingSums {
   double force = 0.0;    // integral of F, N
   double cosine = 0.0;   // integral of F cos(angle)
   double work = 0.0;     // integral of F sin(angle)
-  double viscous = 0.0;  // integral of sqrt(delta) sin^2(angle), sqrt(m)
+  double viscous = 0.0;  // integral of sqrt(delta) (h'/A)^2 over the angle, sqrt(m)
   double shift = 0.0;    // integral of F times the lever's response at angle 0 without the first harmonic, N
 
   SwingSums operator+(const SwingSums& other) const {
@@ -82,12 +82,16 @@ struct SwingGeometry {
     if (shape != nullptr) bent = ways == 1.0 ? shape->bend_now(angle, of_angle, turned) : shape->bend(angle);
     const double h = bottom + 2.0 * amplitude * s * s + bent;
     const double here = force_at(h), force = weight * here;
-    if (shape != nullptr) shape->add(angle, of_angle, turned, ways * weight, here, bent);
+    const double bending = shape == nullptr ? 0.0 : shape->add(angle, of_angle, turned, ways * weight, here, bent);
     sums.force += force;
     sums.cosine += force * cosine;
     sums.work += force * sine;
     sums.shift += force * response.at_lowest(angle, of_angle, turned);
-    if (h < zero_of_indentation) sums.viscous += weight * std::sqrt(zero_of_indentation - h) * sine_squared;
+    if (h < zero_of_indentation) {
+      const double speed = sine + bending / amplitude;
+      const double speed_squared = bending == 0.0 ? sine_squared : speed * speed;
+      sums.viscous += weight * std::sqrt(zero_of_indentation - h) * speed_squared;
+    }
   }
 
   // Sums in contact, between two angles. At the upper end the force may vary like the root of the distance, which the

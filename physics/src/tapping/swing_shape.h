@@ -46,16 +46,18 @@ class SwingShape {
     return response_.bend(p_, c_, angle, of_angle, turned, before_);
   }
 
-  // Adds a node with its weight, its force, in N, and the bend with which it was computed.
-  void add(double angle, const Turned& of_angle, const Turned& turned, double weight, double force,
-           double bend) noexcept {
-    if (count_ == kMostNodes) return;
+  // Adds a node with its weight, its force, in N, and the bend with which it was computed. Returns the rate of the bend
+  // there, in m per rad; 0 unless `exact`.
+  double add(double angle, const Turned& of_angle, const Turned& turned, double weight, double force,
+             double bend) noexcept {
+    if (count_ == kMostNodes) return 0.0;
     const double bending = weight * (force - straight_.at(of_angle)), here = exact_ ? 0.5 * bending : 0.0;
     const double rate = response_.rate(p_, c_, angle, of_angle, turned, before_, here);
     rate_squares_ += weight * rate * rate;
     before_.cosine += bending * turned.cosine;
     before_.sine += bending * turned.sine;
     nodes_[filling_][count_++] = {angle, weight, of_angle, turned, weight * force, bend};
+    return exact_ ? rate : 0.0;
   }
 
   // Mean square of dy/dt over the newest quadrature, in m^2: half of the sum of n^2 A_n^2 over the harmonics n > 1.

@@ -49,9 +49,10 @@ struct Walked {
 // Moves from rest at one height to rest at another, along the branch as far as it goes.
 void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, TapState& state, TappingCurve& curve,
                   Walked& walked) {
-  constexpr int kMostFalseFolds = 4;     // limit beyond which averages cannot follow this swing
-  constexpr int kMostTries = 400;        // attempts; a fold takes some 100, more where Newton's method only creeps
-  constexpr double kFoldError = 1e-18;   // error of a fold's height, m
+  constexpr int kMostFalseFolds = 4;       // limit beyond which averages cannot follow this swing
+  constexpr int kMostTries = 400;          // attempts; a fold takes some 100, more where Newton's method only creeps
+  constexpr int kMostTriesOfOlder = 4000;  // attempts in older sessions, whose creeping walks replay as they were
+  constexpr double kFoldError = 1e-18;     // error of a fold's height, m
   constexpr double kBeyondFold = 2e-12;  // m beyond a fold, from which the flow leaves its neighbourhood in finite time
   const double way = to.si - from.si;
   TapState here = state;
@@ -69,7 +70,7 @@ void move_at_rest(AveragedFlow& flow, Branch branch, Length from, Length to, Tap
   double at = from.si, step = way;
   int tries = 0;
   while (at != to.si) {
-    if (++tries > kMostTries && !flow.is_as_felt()) {
+    if (++tries > (flow.is_of_older_sessions() ? kMostTriesOfOlder : kMostTries)) {
       curve.lost_at = Length(at);
       return;
     }

@@ -23,6 +23,7 @@ constexpr Length kClearOfSample{2e-9};      // distance from the free swing with
 constexpr double kSteepestFall = 4.0;       // steepest slope of the push, in full pushes per free amplitude
 constexpr double kFaintReduction = 0.02;    // faintest reduction of the amplitude, as a share of the free amplitude
 constexpr double kStopped = 0.1;            // smallest amplitude as a share of the free one; with less, a tip may stick
+constexpr int kMostTurns = 8;               // number of turning points that are tried
 constexpr double kMostReachOfSwing = 10.0;  // farthest height in free amplitudes, for an attraction with a long range
 
 Length height_of(int index, Length from, Length to) {
@@ -59,8 +60,14 @@ TappingCurve averaged_curve(const std::shared_ptr<const TapSurface>& surface, co
   TapState state = flow.settle({a0, lever.free_phase}, from).state;
   TappingCurve curve;
   walk_slowly(flow, down, state, curve, kStopped * a0);
-  if (state.amplitude < kStopped * a0) return curve_of(flow, from, curve.points.back().z);
-  return curve_of(flow, from, floor);
+  const bool ends_above = curve.lost_at || state.amplitude < kStopped * a0;
+  Length bottom = ends_above ? curve.points.back().z : floor;
+  for (int i = 0; i < kMostTurns && from - bottom > kStopped * a0; ++i) {
+    curve = curve_of(flow, from, bottom);
+    if (!curve.lost_at) return curve;
+    bottom = std::max(bottom, *curve.lost_at) + kStopped * a0;
+  }
+  throw UnphysicalValue("drive", "over this sample the averages follow no branch of this swing");
 }
 
 // P over falling Z, between the points of a walk.

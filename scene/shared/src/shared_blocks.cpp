@@ -130,16 +130,17 @@ Name to_name(std::string_view text) {
 physics::LawOptions law_options(const SharedContact& material) {
   physics::LawOptions options;
   options.exact_hamaker_sphere = material.exact_hamaker_sphere != 0;
-  if (material.retardation_wavelength_m > 0) {
-    options.retardation_wavelength = physics::Length(material.retardation_wavelength_m);
-  }
+  const double wavelength_m = material.retardation_wavelength_m;
+  if (wavelength_m > 0) options.retardation_wavelength = physics::Length(wavelength_m);
   if (material.has_meniscus != 0) options.meniscus = material.meniscus;
   return options;
 }
 
 physics::DrivenLever tapping_lever(const SharedContact& material) {
-  return physics::driven_lever(material.contact.spring_constant, material.lever,
-                               {physics::Length(material.free_amplitude_m), physics::Frequency(material.drive_hz)});
+  const physics::Drive drive{physics::Length(material.free_amplitude_m), physics::Frequency(material.drive_hz)};
+  physics::DrivenLever lever = physics::driven_lever(material.contact.spring_constant, material.lever, drive);
+  if (material.harmonics_at_resonance != 0) lever.harmonics = physics::Harmonics::AtResonance;
+  return lever;
 }
 
 std::string why_no_friction(physics::FrictionLaw friction, physics::Law law, physics::Pressure reduced_modulus) {
@@ -188,13 +189,13 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   if (material.dynamic != 0 && !physics::has_dynamics(material.law)) {
     return model_refused(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
+  const std::uint32_t most = taps(material) ? 1 : 0;
   // written so that NaN fails
-  if (!(material.free_amplitude_m >= 0.0 && material.viscosity_pa_s >= 0.0)) {
+  if (!(material.free_amplitude_m >= 0.0 && material.viscosity_pa_s >= 0.0 &&
+        material.harmonics_at_resonance <= most)) {
     return model_refused("its swing is not a valid one");
   }
-  if (material.felt_mean_force > (taps(material) ? 1U : 0U)) {
-    return model_refused("the mean force of a lever that does not tap cannot be felt");
-  }
+  if (material.felt_mean_force > most) return model_refused("a lever that does not tap has no mean force to feel");
   if (taps(material) && (material.dynamic != 0 || material.friction.law != physics::FrictionLaw::None ||
                          !physics::has_dynamics(material.law))) {
     return model_refused(fmt::format("the law {} cannot be tapped on", physics::name_of(material.law)));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/enumerators.h"
+#include "core/fnv1a.h"
 #include "exhibit/cluster/wall_history.h"
 #include "exhibit/scan/live_scan.h"
 #include "exhibit/scan/scan_cause.h"
@@ -171,6 +173,41 @@ TEST(TappedScan, HasTheSameImageOnAnotherMachineAfterChangesOfItsDrive) {
     EXPECT_TRUE(same(scan.maps().phase_deg[0], other->maps().phase_deg[0]));
     EXPECT_TRUE(same(scan.maps().error_n[1], other->maps().error_n[1]));
   }
+}
+
+// In units far below a height that anyone measures, and far above the last bit of a cosine.
+std::uint64_t digest_of(const ScanMaps& maps) {
+  core::Fnv1a digest;
+  const auto add = [&digest](const std::vector<double>& values, double unit) {
+    for (const double value : values) {
+      if (!std::isfinite(value)) continue;
+      const auto units = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::nearbyint(value / unit)));
+      for (int shift = 0; shift < 64; shift += 8) digest.add(static_cast<unsigned char>(units >> shift));
+    }
+  };
+  for (std::size_t pass = 0; pass < 2; ++pass) {
+    add(maps.height_m[pass], 1e-15);
+    add(maps.phase_deg[pass], 1e-6);
+  }
+  return digest.value();
+}
+
+// The hills with a drive beside the resonance, in two parts.
+std::uint64_t digest_beside_resonance(physics::Harmonics harmonics) {
+  ScanSubject subject = scan_of(hills_m).subject();
+  subject.tapped->lever.harmonics = harmonics;
+  LiveScan scan(std::move(subject));
+  scan_lines(scan, 3.0);
+  EXPECT_TRUE(scan.step(ScanRow::DriveFrequency, 4));
+  scan_lines(scan, 2.0);
+  return digest_of(scan.maps());
+}
+
+TEST(TappedScan, HasTheHarmonicsOfItsDriveAndInOlderSessionsThoseAtTheResonance) {
+  // computed by the program that had no other harmonics
+  constexpr std::uint64_t kBeforeVersion21 = 13633114729344374401U;
+  EXPECT_EQ(digest_beside_resonance(physics::Harmonics::AtResonance), kBeforeVersion21);
+  EXPECT_NE(digest_beside_resonance(physics::Harmonics::OfTheDrive), kBeforeVersion21);
 }
 
 void expect_named(LiveScan scan, const std::vector<Artefact>& artefacts) {

@@ -17,7 +17,7 @@ namespace tapping_scan_test {
 using namespace afm::physics;
 
 TappingDetector detector_at(double setpoint_nm, const TappedSample& sample = {}) {
-  return {sample.surface(), sample.lever(), Length(setpoint_nm * 1e-9), TappingDetector::Harmonics::OfTheDrive};
+  return {sample.surface(), sample.lever(), Length(setpoint_nm * 1e-9)};
 }
 
 // A free lever so fast that its envelope follows at once, over a surface that only repels.
@@ -25,7 +25,7 @@ TappingDetector fast_detector(double setpoint_nm) {
   const TappedSample sample{.k = 1.0, .e_gpa = 100.0};
   const DrivenLever lever =
       driven_lever(Stiffness(sample.k), {Frequency(20e6), 100.0, Temperature()}, {Length(20e-9), Frequency(20e6)});
-  return {sample.surface(Law::Hertz), lever, Length(setpoint_nm * 1e-9), TappingDetector::Harmonics::OfTheDrive};
+  return {sample.surface(Law::Hertz), lever, Length(setpoint_nm * 1e-9)};
 }
 
 ScanSettings ideal(double gain_per_s) {
@@ -148,8 +148,10 @@ TEST(TappingDetector, RestsWhereTheAveragedFlowDoes) {
 }
 
 // Share by which the amplitude of direct integration differs from that of the swing which the detector holds.
-double off_at_rest(TappingDetector::Harmonics harmonics, const TappedSample& sample, double setpoint_nm) {
-  TappingDetector detector(sample.surface(), sample.lever(), Length(setpoint_nm * 1e-9), harmonics);
+double off_at_rest(Harmonics harmonics, const TappedSample& sample, double setpoint_nm) {
+  DrivenLever lever = sample.lever();
+  lever.harmonics = harmonics;
+  TappingDetector detector(sample.surface(), lever, Length(setpoint_nm * 1e-9));
   const Length gap(detector.engaged_gap_m());
   for (int i = 0; i < 20000; ++i) detector.advance(gap.si, 20.0);
   TappingOscillator tip(sample.surface(), sample.lever());
@@ -158,13 +160,13 @@ double off_at_rest(TappingDetector::Harmonics harmonics, const TappedSample& sam
   return tip.settle().state.amplitude.si / detector.amplitude_m() - 1.0;
 }
 
-// The harmonics answered as at the resonance; a session's image still has them so.
+// The harmonics answered as at the resonance; an older session's image still has them so.
 TEST(TappingDetector, RestsWhereDirectIntegrationDoesBesideTheResonance) {
-  constexpr auto kOfTheDrive = TappingDetector::Harmonics::OfTheDrive;
+  constexpr auto kOfTheDrive = Harmonics::OfTheDrive;
   const TappedSample above{.ratio = 1.06};
   EXPECT_LT(std::abs(off_at_rest(kOfTheDrive, {.ratio = 0.94}, 14.0)), 1e-3);
   EXPECT_LT(std::abs(off_at_rest(kOfTheDrive, above, 14.0)), 1e-3);
-  EXPECT_GT(std::abs(off_at_rest(TappingDetector::Harmonics::AtResonance, above, 14.0)), 4e-3);
+  EXPECT_GT(std::abs(off_at_rest(Harmonics::AtResonance, above, 14.0)), 4e-3);
 }
 
 // The tables of one drive serve another of the same lever.

@@ -163,13 +163,12 @@ TEST(TapTable, IsFollowedWithTheRelaxationOfTheLever) {
 }
 
 TEST(TapTable, HoldsASetpointOfAnImage) {
-  TappingDetector detector(kSoft.surface(), kSoft.lever(), Length(16e-9), TappingDetector::Harmonics::OfTheDrive);
+  TappingDetector detector(kSoft.surface(), kSoft.lever(), Length(16e-9));
   EXPECT_TRUE(detector.is_direct());
   EXPECT_NEAR(detector.amplitude_m(), 16e-9, 0.02e-9);
   // T24: 15.953 nm at a height of 14 nm
   EXPECT_NEAR(detector.engaged_gap_m(), 14.05e-9, 0.05e-9);
-  EXPECT_THROW(TappingDetector(kSoft.surface(), kSoft.lever(), Length(20e-9), TappingDetector::Harmonics::OfTheDrive),
-               std::invalid_argument);
+  EXPECT_THROW(TappingDetector(kSoft.surface(), kSoft.lever(), Length(20e-9)), std::invalid_argument);
 }
 
 }  // namespace tap_table_test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/tapping/tapping_model.h"
+#include "physics/tapping/tapping_oscillator.h"
 
 #include <gtest/gtest.h>
 
@@ -77,6 +78,40 @@ TEST(TappedTables, HaveTheFoldsOfASlowWalk) {
 TEST(TappedTables, RefuseALeverThatFollowsTooSlowly) {
   const TappedSample slow{.q = 3000.0};
   EXPECT_THROW((void)tapped_law_tables(Law::Dmt, slow.surface(), slow.lever()), UnphysicalValue);
+}
+
+// Over a soft lever beside the resonance the walk crept on in endless steps of 1e-18 m.
+TEST(TappedTables, EndAboveTheHeightAtWhichTheAveragesFollowNoBranch) {
+  const TappedSample soft{.k = 2.0, .q = 120.0, .ratio = 1.06};
+  for (const Harmonics harmonics : {Harmonics::OfTheDrive, Harmonics::AtResonance}) {
+    DrivenLever lever = soft.lever();
+    lever.harmonics = harmonics;
+    const auto tables = tapped_law_tables(Law::Dmt, soft.surface(), lever);
+    EXPECT_GT(tables->pressed_to.si, soft.surface()->contact_height().si);
+    EXPECT_LT(tables->pressed_to.si, 6e-9);
+  }
+}
+
+// Share by which the amplitude of direct integration differs from that under a hand that rests at this height.
+double off_under_hand(Harmonics harmonics, const TappedSample& sample, double z_nm) {
+  const auto surface = sample.surface();
+  DrivenLever lever = sample.lever();
+  lever.harmonics = harmonics;
+  TappingModel model(surface, lever, tapped_law_tables(Law::Dmt, surface, lever), kTick);
+  Path path;
+  move(model, 24.0, z_nm, 0.02, path);
+  for (int i = 0; i < 200; ++i) (void)model.step(Length(1e-9 * z_nm));
+  TappingOscillator tip(surface, lever);
+  tip.place(Length(1e-9 * z_nm), {model.amplitude(), model.phase_lag()});
+  (void)tip.settle();
+  return tip.settle().state.amplitude / model.amplitude() - 1.0;
+}
+
+// A hand's harmonics answered as at the resonance; an older session still has them so.
+TEST(TappingModel, RestsWhereDirectIntegrationDoesBesideTheResonance) {
+  const TappedSample below{.ratio = 0.94};
+  EXPECT_LT(std::abs(off_under_hand(Harmonics::OfTheDrive, below, 11.0)), 1e-4);
+  EXPECT_GT(std::abs(off_under_hand(Harmonics::AtResonance, below, 11.0)), 8e-4);
 }
 
 TEST(TappingModel, RestsInTheStatesOfTheTables) {

@@ -19,15 +19,11 @@ class TapTable;
 // One thread. Only the constructor and copies allocate.
 class TappingDetector {
  public:
-  // The drive at which the higher harmonics answer where averages are taken. AtResonance: as in live images,
-  // which sessions draw again bit for bit; with a drive 6 % above the resonance amplitudes are off by 1 %.
-  enum class Harmonics { OfTheDrive, AtResonance };
-
   // `setpoint`: amplitude that the feedback keeps. Throws UnphysicalValue unless the setpoint is within 1 % to 99.9 %
   // of the free amplitude, and a tip that comes from above finds a height with this amplitude. `rests`: a table of this
   // surface and lever, if one is at hand.
   TappingDetector(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever, Length setpoint,
-                  Harmonics harmonics, std::shared_ptr<const TapTable> rests = nullptr);
+                  std::shared_ptr<const TapTable> rests = nullptr);
 
   ~TappingDetector();
   TappingDetector(const TappingDetector& other);
@@ -70,7 +66,6 @@ class TappingDetector {
 
   std::shared_ptr<const TapSurface> surface_;
   DrivenLever lever_;
-  Harmonics harmonics_;
   std::shared_ptr<const TapTable> rests_;  // table of resting swings; null for a high quality factor
 
   double setpoint_m_ = 0;

@@ -43,8 +43,8 @@ class AveragedFlow {
  public:
   static constexpr double kLeastQuality = 100.0;
 
-  // AsFelt: as sessions of a hand have it, which replay bit for bit. Its loss of the harmonics is too large for swings
-  // far smaller than the mean deflection, and beside the resonance they answer as at the resonance.
+  // AsFelt: as sessions of a hand have it, which replay bit for bit. At the resonance, and with Harmonics::AtResonance,
+  // its loss of the harmonics is too large for swings far smaller than the mean deflection.
   enum class Search { Exact, AsFelt };
 
   AveragedFlow(std::shared_ptr<const TapSurface> surface, const DrivenLever& lever, Search search = Search::Exact);
@@ -84,6 +84,8 @@ class AveragedFlow {
 
   const DrivenLever& lever() const noexcept { return lever_; }
   bool is_as_felt() const noexcept { return search_ == Search::AsFelt; }
+  // True if sessions from before Harmonics::OfTheDrive have these swings.
+  bool is_of_older_sessions() const noexcept { return is_as_felt() && !answers_at_drive_; }
 
  private:
   struct Rate {
@@ -129,6 +131,7 @@ class AveragedFlow {
   std::shared_ptr<const TapSurface> surface_;
   DrivenLever lever_;
   Search search_;
+  bool answers_at_drive_;  // not at the resonance
   double k_, a_, r_, q_;
   double harmonics_ratio_;             // ratio of drive to resonance in the harmonics' response
   std::unique_ptr<SwingShape> shape_;  // shape of the previous swing

@@ -12,6 +12,11 @@ struct Drive {
   Frequency frequency;    // f_d, frequency of the drive
 };
 
+// The frequency at which averages let the higher harmonics of a swing answer. AtResonance, whatever the drive: as in
+// recordings of session versions before 21, which replay bit for bit; 6 % above the resonance amplitudes are off by 1
+// %.
+enum class Harmonics { OfTheDrive, AtResonance };
+
 // A lever under its drive. With x the deflection of the tip, positive away from the sample, and time in 1/w0:
 //
 //   x'' + x'/Q + x = a cos(r t) + F/k,   r = f_d/f0,   a = A0 sqrt((1-r^2)^2 + (r/Q)^2).
@@ -26,6 +31,7 @@ struct DrivenLever {
   Length free_amplitude;
   Length base_amplitude;    // a, amplitude of the base
   double free_phase = 0.0;  // lag of the free lever behind its drive, rad
+  Harmonics harmonics = Harmonics::OfTheDrive;
 
   double angular_resonance() const noexcept;  // w0, angular resonance in rad/s
   double angular_drive() const noexcept;      // r w0, angular drive frequency in rad/s

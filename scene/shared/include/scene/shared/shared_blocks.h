@@ -73,8 +73,9 @@ struct SharedContact {
   std::uint32_t law_map = 0;      // 1: modulus and adhesion at each place come from the model's map
   std::uint32_t viscous_map = 0;  // 1: with law_map, damping that grows with the energy lost by the law at each place
   MapVibration map_vibration{};   // quantity felt as a vibration; with law_map only; zero: none
-  std::uint32_t felt_mean_force =
+  std::uint16_t felt_mean_force =
       0;  // 1: of a lever that taps the mean force is felt, as far as an energy tank pays for it
+  std::uint16_t harmonics_at_resonance = 0;  // 1: those of a lever that taps, physics::Harmonics::AtResonance
 };
 
 // True if the lever is in tapping mode.
