@@ -12,9 +12,8 @@ struct Drive {
   Frequency frequency;    // f_d, frequency of the drive
 };
 
-// The frequency at which averages let the higher harmonics of a swing answer. AtResonance, whatever the drive: as in
-// recordings of session versions before 21, which replay bit for bit; 6 % above the resonance amplitudes are off by 1
-// %.
+// Frequency at which averages let the higher harmonics of a swing answer. AtResonance, whatever the drive, is that of
+// recordings before session version 21, which replay bit for bit: 6 % above the resonance amplitudes are 1 % off.
 enum class Harmonics { OfTheDrive, AtResonance };
 
 // A lever under its drive. With x the deflection of the tip, positive away from the sample, and time in 1/w0:
