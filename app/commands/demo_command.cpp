@@ -21,6 +21,7 @@
 #include "app/options/servo_options.h"
 #include "app/options/sound_options.h"
 #include "app/tapping/tapping_command.h"
+#include "core/file_names.h"
 #include "core/json_text.h"
 #include "core/log.h"
 #include "core/output_folder.h"
@@ -115,8 +116,9 @@ core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& 
                                  phrases);
     const exhibit::FrameBuilder varied(stage.wall_scene, figure.materials(), stage.eyes);
     const scene::MaterialEntry& entry = plan.materials[i].setup.material;
-    draw_picture("vary-" + entry.name + ".png", phrases.text<exhibit::Phrase::CaptionVaried>(phrases.word(entry.title)),
-                 figure.moment(), varied, *renderer, drawn);
+    draw_picture("vary-" + core::in_file_name(entry.name) + ".png",
+                 phrases.text<exhibit::Phrase::CaptionVaried>(phrases.word(entry.title)), figure.moment(), varied,
+                 *renderer, drawn);
   }
   auto written = drawn.finish();
   if (!written) return tl::unexpected(written.error());
@@ -124,8 +126,9 @@ core::Result<void> draw_figures(render::Context& context, const exhibit::Stage& 
   return draw_journey(frames, *renderer, out, pictures, phrases);
 }
 
-core::Result<void> write_session(const servo::RecordedSession& session, const std::string& name,
+core::Result<void> write_session(const servo::RecordedSession& session, const std::string& material,
                                  const DemoOptions& options, core::OutputFolder& out) {
+  const std::string name = core::in_file_name(material);
   if (auto saved = servo::save_session(session, out.staged("session-" + name + ".afms")); !saved) return saved;
   if (options.sound) {
     const auto wav = exhibit::wav_of(session, options.sound_options.channels(), options.sound_options.gain());

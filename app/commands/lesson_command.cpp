@@ -191,13 +191,18 @@ void add_lesson_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command(
       "lesson", "go through a lesson, alone or as a study: its steps, blind tests and questionnaires");
   command.footer(
-      "example: touchafm lesson assets/lessons/first-touch.toml\n"
-      "         touchafm lesson assets/lessons/three-materials.toml --participant QXWERT --out study\n"
-      "         touchafm lesson assets/lessons/three-materials.toml --participant sim:7 --out study\n"
-      "         touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2\n"
+      "example: touchafm lesson first-touch\n"
+      "         touchafm lesson three-materials --participant QXWERT --out study\n"
+      "         touchafm lesson three-materials --participant sim:7 --out study\n"
+      "         touchafm lesson first-touch --fullscreen --instructor 2\n"
       "         touchafm lesson --withdraw ABCDEF --out study");
   const auto options = std::make_shared<LessonOptions>();
-  command.add_option("lesson", options->lesson, "lesson file (TOML); assets/lessons holds ten").type_name("FILE");
+  command
+      .add_option(
+          "lesson", options->lesson,
+          fmt::format("lesson file (TOML), or the name of an included one; {}/lessons holds ten", context.assets_dir))
+      .or_included_in(context.assets_dir + "/lessons")
+      .type_name("FILE");
   auto participant = command.add_option(
       "--participant", options->participant,
       "participant: a code of six capital letters, or sim:SEED for a simulated participant in simulated time and "

@@ -312,10 +312,13 @@ core::Result<void> run_wall(const WallOptions& options) {
 
 void add_wall_command(OptionList& program, const CommandContext& context) {
   OptionList command = program.add_command("wall", "check a wall file and print the view of each eye");
-  command.footer(
-      fmt::format("example: touchafm wall {}/walls/powerwall.toml --json --head 0.2,1.7,2.1", context.assets_dir));
+  command.footer("example: touchafm wall powerwall --json --head 0.2,1.7,2.1");
   auto options = std::make_shared<WallOptions>();
-  command.add_option("file", options->file, "wall file (TOML), or a ParaView configuration (.pvx)")
+  command
+      .add_option("file", options->file,
+                  "wall file (TOML), a ParaView configuration (.pvx), or the name of an included wall, such as "
+                  "cave")
+      .or_included_in(context.assets_dir + "/walls")
       .required()
       .type_name("FILE");
   const auto read_head = [head = &options->head](const std::string& text) -> core::Result<void> {

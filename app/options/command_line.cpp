@@ -2,14 +2,18 @@
 #include "app/options/command_line.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -218,6 +222,27 @@ Option& Option::one_of(const std::vector<std::string>& words) {
 
 Option& Option::existing_folder() {
   option_->check(CLI::Validator(CLI::ExistingDirectory).description(""));
+  return *this;
+}
+
+Option& Option::or_included_in(const std::string& folder) {
+  option_->transform([option = option_, folder](const std::string& name) {
+    namespace fs = std::filesystem;
+    std::error_code ignored;
+    if (name.find('/') != std::string::npos || fs::exists(name, ignored)) return name;
+    std::vector<std::string> known;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      const fs::path& file = entry.path();
+      if (file.extension() != ".toml") continue;
+      if (name == file.filename() || name == file.stem()) return file.string();
+      known.push_back(file.stem().string());
+    }
+    if (name.find('.') != std::string::npos || known.empty()) return name;
+    std::sort(known.begin(), known.end());
+    throw CLI::ValidationError(option->get_name(), fmt::format("\"{}\" is neither a file nor included; choose {}, or "
+                                                               "give the path of a file",
+                                                               name, fmt::join(known, ", ")));
+  });
   return *this;
 }
 

@@ -41,6 +41,9 @@ class Option {
   Option& one_of(std::initializer_list<int> values);
   Option& one_of(const std::vector<std::string>& words);
   Option& existing_folder();
+  // A name without a folder that is no file of the current folder may be that of a TOML file in `folder`, with or
+  // without its extension. WrongUsage, with all names, if it has no extension and none fits.
+  Option& or_included_in(const std::string& folder);
   Option& writable_file();  // checked early, so that no result is lost after long work
 
   // The value is a file or folder to be written, as implied by writable_file(). WrongUsage if it is a file that

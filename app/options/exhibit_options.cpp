@@ -201,8 +201,9 @@ void add_phrase_options(OptionList& command, exhibit::ExhibitFiles& files, const
 Option add_wall_option(OptionList& command, exhibit::ExhibitFiles& files) {
   return command
       .add_option("--wall", files.wall,
-                  "wall file (TOML): the corners of the screens and the position of the viewer; default: the paper's "
-                  "wall, 10 ft x 7.5 ft")
+                  "wall file (TOML): the corners of the screens and the position of the viewer; or the name of an "
+                  "included one, such as cave; default: the paper's wall, 10 ft x 7.5 ft")
+      .or_included_in(files.assets_dir + "/walls")
       .type_name("FILE");
 }
 

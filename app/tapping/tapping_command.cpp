@@ -165,7 +165,7 @@ core::Result<void> check_tapping_options(const curves::TappingChoice& choice) {
                                    choice.mode, option.tapping ? "tapping" : "fm"));
   }
   if (choice.mode == "tapping" && choice.numbers.free_amplitude.empty()) {
-    return wrong_usage("--mode tapping needs --free-amplitude");
+    return wrong_usage("--mode tapping needs --free-amplitude, such as --free-amplitude 20nm");
   }
   if (choice.mode == "fm" && choice.numbers.amplitude.empty()) return wrong_usage("--mode fm needs --amplitude");
   return {};

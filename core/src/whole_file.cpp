@@ -112,8 +112,13 @@ tl::unexpected<Error> unwritable(const std::string& path, int error) {
   std::string why = system_error(error);
   if (error == ENXIO) why = "no program reads from it";
   const fs::path folder = follow_links(path).value_or(path).parent_path();
-  if (error == ENOENT && !folder.empty())
-    why = "there is no folder " + folder.string() + "; make it, or choose another";
+  std::error_code ignored;
+  if (error == ENOENT && folder.empty()) {
+    if (fs::current_path(ignored).empty()) why = "the current folder has been deleted; go to another";
+  } else if (error == ENOENT) {
+    why = fs::exists(folder, ignored) ? "the folder " + folder.string() + " takes no new files; choose another"
+                                      : "there is no folder " + folder.string() + "; make it, or choose another";
+  }
   return failure(ErrorCategory::Failed, "cannot write " + path + ": " + why);
 }
 

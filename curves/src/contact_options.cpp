@@ -60,7 +60,8 @@ core::Result<void> require_numbers(const ContactOptions& options, const ModelNam
     missing += fmt::format("{}--{}", missing.empty() ? "" : ", ", option);
   }
   if (missing.empty()) return {};
-  return wrong_usage(fmt::format("model {} without --material also needs {}", model.text, missing));
+  return wrong_usage(fmt::format("model {} without --material also needs {}; a material supplies them: --material gold",
+                                 model.text, missing));
 }
 
 core::Result<scene::MaterialEntry> base_material(const ContactOptions& options, const ModelName& model) {

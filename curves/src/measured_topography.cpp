@@ -194,9 +194,12 @@ core::Result<scene::Topography> felt_topography(const MeasuredTopography& topogr
   }
   if (std::max(scan.width_m, scan.height_m) > kWidestScanM ||
       std::max(-topography.levelled.lowest, topography.levelled.highest) > kHighestM) {
-    return unfit(topography,
-                 fmt::format("{} wide, {} to {} high: larger than a scan is", length_text(scan.width_m),
-                             length_text(topography.levelled.lowest), length_text(topography.levelled.highest)));
+    return unfit(
+        topography,
+        fmt::format("{} x {}, heights of {} to {}: larger than a scan is, up to {}; set its size or its unit in "
+                    "the program that wrote it",
+                    length_text(scan.width_m), length_text(scan.height_m), length_text(topography.levelled.lowest),
+                    length_text(topography.levelled.highest), length_text(kWidestScanM)));
   }
   if (std::min(scan.width_m, scan.height_m) < kNarrowestScanM) {
     return unfit(topography,

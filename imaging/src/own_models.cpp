@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -92,6 +93,31 @@ core::Result<scene::Scene> load(const std::string& file) {
   return loaded;
 }
 
+// Area of the triangles as seen along each axis.
+dvec3 projected_areas(const scene::Mesh& mesh) {
+  dvec3 areas(0.0);
+  for (const scene::Primitive& primitive : mesh.primitives) {
+    if (primitive.topology != scene::Topology::Triangles) continue;
+    for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t of) { return dvec3(primitive.vertices[primitive.indices[i + of]].position); };
+      areas += 0.5 * glm::abs(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+  }
+  return areas;
+}
+
+// Empty unless the surface is on edge under the tip, as that of an exporter whose up is +y: the tip would meet
+// nothing. A block ten times as high as wide does so, too.
+std::string doubt_of_normal(const scene::Mesh& mesh) {
+  constexpr double kLeastShare = 0.1;
+  const dvec3 areas = projected_areas(mesh);
+  if (areas.z >= kLeastShare * std::max(areas.x, areas.y)) return "";
+  return fmt::format(
+      "its surface is on edge under the tip: +z of the node for the role surface is the outward normal, but the "
+      "surface faces along its {}; turn this node, without the mesh, by {} degrees about {}",
+      areas.y > areas.x ? "y" : "x", areas.y > areas.x ? -90 : 90, areas.y > areas.x ? "x" : "y");
+}
+
 core::Result<scene::Scene> load_model_of_sample(const std::string& file) {
   auto loaded = load(file);
   if (!loaded) return loaded;
@@ -113,6 +139,9 @@ core::Result<scene::Scene> load_model_of_sample(const std::string& file) {
     return tl::unexpected(missing(
         file,
         "its node for the role surface, where the tip comes down, lies beside the sample: put it on the surface"));
+  }
+  if (const std::string doubt = doubt_of_normal(sample.meshes[0]); !doubt.empty()) {
+    return tl::unexpected(missing(file, doubt));
   }
   if (width > kWidestSampleM) {
     for (scene::Primitive& primitive : sample.meshes[0].primitives) {

@@ -209,9 +209,12 @@ TEST(CurveCommand, NeedsNoMaterialWhereEveryNumberIsGiven) {
   EXPECT_EQ(json["parameters"]["material"], "none");
 
   curves::ContactOptions missing = soft_contact("auto");
-  EXPECT_EQ(refusal(missing), "model auto without --material also needs --hamaker");
+  EXPECT_EQ(refusal(missing),
+            "model auto without --material also needs --hamaker; a material supplies them: --material gold");
   missing.values["tip-radius"] = "";
-  EXPECT_EQ(refusal(missing), "model auto without --material also needs --tip-radius, --hamaker");
+  EXPECT_EQ(
+      refusal(missing),
+      "model auto without --material also needs --tip-radius, --hamaker; a material supplies them: --material gold");
 }
 
 TEST(CurveCommand, KnowsEveryModel) {

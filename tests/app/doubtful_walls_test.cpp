@@ -100,5 +100,25 @@ TEST(WallCommand, SaysHowHighACapitalIs) {
   EXPECT_THAT(result.out, HasSubstr("the smallest capital letters are 18.0 mm high, 25 arc minutes"));
 }
 
+// Of an installed program nobody knows the folder of the presets.
+TEST(IncludedWalls, AreGivenByNameUnlessThereIsSuchAFile) {
+  const support::ScratchFolder folder;
+  const auto wall_in_folder = [&](const std::string& name) {
+    return support::run_program("cd " + folder.path() + " && " + support::touchafm() + " wall " + name);
+  };
+  EXPECT_THAT(wall_in_folder("cave").out, HasSubstr("screen front"));
+  EXPECT_THAT(wall_in_folder("cave.toml").out, HasSubstr("screen front"));
+  EXPECT_EQ(wall_in_folder("./cave.toml").exit_code, 3);
+  EXPECT_THAT(wall_in_folder("cove.toml").err, HasSubstr("wall file cove.toml: cannot be read: there is no such file"));
+  const ProgramResult misspelt = wall_in_folder("cove");
+  EXPECT_EQ(misspelt.exit_code, 2);
+  EXPECT_THAT(misspelt.err, HasSubstr("\"cove\" is neither a file nor included; choose 3d-tv, blended, cave,"));
+  folder.write("cave", "[[screen]]\n");
+  EXPECT_THAT(wall_in_folder("cave").err, HasSubstr("wall file cave: line 1: screen.name"));
+  const ProgramResult lesson = support::run_program("cd " + folder.path() + " && " + support::touchafm() +
+                                                    " lesson first-touch --participant sim:1 --out class");
+  EXPECT_EQ(lesson.exit_code, 0) << lesson.err;
+}
+
 }  // namespace doubtful_walls_test
 }  // namespace afm::app

@@ -15,12 +15,14 @@
 #include <vector>
 
 #include "core/exit_code.h"
+#include "core/file_names.h"
 #include "core/new_file.h"
 #include "support/scratch_folder.h"
 
 namespace afm::core {
 namespace whole_file_test {
 
+using ::testing::AnyOf;
 using ::testing::EndsWith;
 namespace fs = std::filesystem;
 
@@ -150,6 +152,26 @@ TEST_F(WholeFile, IsRefusedInAdvanceWhereItCannotBeWritten) {
   EXPECT_FALSE(check_writable(path("folder")));
   EXPECT_FALSE(check_writable("/proc/version/a"));
   EXPECT_EQ(files(), 2);
+}
+
+TEST_F(WholeFile, NamesAFolderThatTakesNoFileAndACurrentOneThatIsGone) {
+  // for root; others have no right to write there
+  EXPECT_THAT(write_file("/proc/a", "x").error().message,
+              AnyOf(EndsWith("cannot write /proc/a: the folder /proc takes no new files; choose another"),
+                    EndsWith("Permission denied")));
+  const fs::path before = fs::current_path();
+  fs::create_directory(path("gone"));
+  fs::current_path(path("gone"));
+  fs::remove(path("gone"));
+  const auto written = write_file("a", "x");
+  fs::current_path(before);
+  EXPECT_EQ(written.error().message, "cannot write a: the current folder has been deleted; go to another");
+}
+
+TEST(FileNames, HaveNoSlash) {
+  EXPECT_EQ(in_file_name("SiO2/Si"), "SiO2%2FSi");
+  EXPECT_EQ(in_file_name("../x"), "..%2Fx");
+  EXPECT_EQ(in_file_name("Gold, (111)"), "Gold, (111)");
 }
 
 TEST_F(WholeFile, NamesWhatIsNone) {

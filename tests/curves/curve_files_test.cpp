@@ -233,7 +233,8 @@ TEST(TouchAfmCsv, IsReadBack) {
   EXPECT_THAT(error_of(text.substr(0, text.size() - 1)), HasSubstr("it is cut short"));
   const std::string counted = text.substr(0, text.find("z_m,")) + "# samples: 100\n" + text.substr(text.find("z_m,"));
   EXPECT_THAT(error_of(counted), HasSubstr("samples are there"));
-  EXPECT_THAT(error_of(text + "1e-9\n"), HasSubstr("line 29 has 1 fields, the heading 3"));
+  EXPECT_THAT(error_of(text + "1e-9\n"), HasSubstr("line 29 has 1 field, the heading 3"));
+  EXPECT_THAT(error_of(text + "1e-9,1e-9,approach\n"), HasSubstr("were its rows sorted?"));
   EXPECT_THAT(error_of(text + "20,1e-9,retract\n"), HasSubstr("range of a force microscope; is it in SI?"));
   EXPECT_THAT(error_of(text + "1e-9,1e-9,approach\n1e-9,1e-9,retract\n"),
               HasSubstr("does not approach once and retract once"));

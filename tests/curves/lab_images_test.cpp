@@ -182,6 +182,15 @@ TEST(LabImageFiles, TakeSensitivitiesInAnyUnit) {
   EXPECT_NEAR(read.image.channels[0].values[0] / (4 * 0.44 / 65536 * 12.5e-9), 1.0, 1e-9);
 }
 
+TEST(LabImageFiles, NameASensitivityThatTheHeaderLacks) {
+  test::NanoscopeChannel height = nanoscope("Height", 4, 2);
+  height.z_scale = "V [Sens. Zother] (0.0067 V/LSB) 440 V";
+  const LoadedImage read = parsed(test::nanoscope_file("0x08150300", {height}));
+  EXPECT_THAT(read.remarks,
+              ElementsAre(HasSubstr("its channel Height names the sensitivity \"Sens. Zother\", which its "
+                                    "header lacks: its values are in V")));
+}
+
 // If nothing contradicts it, the header is believed, and the user informed.
 TEST(LabImageFiles, BelieveASizeOfPixelsThatAreNotSquareAndSayIt) {
   test::NanoscopeChannel fast = nanoscope("Height", 4, 2);

@@ -16,6 +16,8 @@
 namespace afm::curves {
 namespace measured_topography_test {
 
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 
 std::string write(const support::ScratchFolder& folder, const std::string& bytes) {
@@ -114,6 +116,14 @@ TEST(MeasuredTopography, IsNoSampleWhereItIsNoHeight) {
       load_topography(write(folder, test::gsf_file("XRes = 2\nYRes = 2\nZUnits = m\n", {0, 0, 0, 0})), {});
   ASSERT_TRUE(huge) << huge.error().message;
   EXPECT_THAT(felt_topography(*huge).error().message, HasSubstr("larger than a scan")) << "no XReal: 1 m";
+  const auto tall = load_topography(write(folder, gsf(2, 2, 1e-6, 5e-3, {0, 1e-9F, 0, 0})), {});
+  ASSERT_TRUE(tall) << tall.error().message;
+  EXPECT_THAT(felt_topography(*tall).error().message,
+              AllOf(HasSubstr("1 um x 5 mm"), HasSubstr("larger than a scan is, up to 1 mm; set its size")));
+  EXPECT_THAT(tall->file.remarks, Contains(HasSubstr("its pixels are 5000 times as high as wide")));
+  const auto profile = load_topography(write(folder, gsf(1, 4, 1e-8, 1e-6, {0, 1, 2, 3})), {});
+  ASSERT_FALSE(profile);
+  EXPECT_THAT(profile.error().message, HasSubstr("points on a side: 1; 2 to 8192 are read: it is a profile"));
   const auto blank = load_topography(write(folder, gsf(2, 2, 1e-6, 1e-6, {NAN, NAN, NAN, NAN})), {});
   ASSERT_FALSE(blank);
   EXPECT_EQ(blank.error().category, core::ErrorCategory::BadInputFile);

@@ -186,6 +186,23 @@ TEST_F(OwnModel, IsNoSampleBesideTheTip) {
   }
 }
 
+// glTF has +y up, so that a level surface of most programs is on edge in the frame of its node.
+TEST_F(OwnModel, IsNoSampleOnEdge) {
+  const auto turned = [&](const std::string& rotation) {
+    const auto own = load_own_models("", write(R"("nodes": [{"name": "surface", "children": [1]},
+        {"mesh": 0, "scale": [4e-8, 4e-8, 4e-8], "rotation": )" +
+                                               rotation + "}]"));
+    return own ? "felt" : own.error().message;
+  };
+  EXPECT_EQ(turned("[0, 0, 0, 1]"), "felt");
+  EXPECT_EQ(turned("[0, 0, 0.7071067811865476, 0.7071067811865476]"), "felt");
+  EXPECT_EQ(turned("[0.258819, 0, 0, 0.9659258]"), "felt") << "a slope of 30 degrees";
+  EXPECT_THAT(turned("[-0.7071067811865476, 0, 0, 0.7071067811865476]"),
+              HasSubstr("is on edge under the tip: +z of the node for the role surface is the outward normal, but "
+                        "the surface faces along its y; turn this node, without the mesh, by -90 degrees about x"));
+  EXPECT_THAT(turned("[0, 0.7071067811865476, 0, 0.7071067811865476]"), HasSubstr("by 90 degrees about y"));
+}
+
 TEST_F(OwnModel, BecomesASampleThatIsFeltAsItIsDrawn) {
   const auto own = load_own_models("", write(R"("nodes": [{"name": "surface", "children": [1]},
       {"mesh": 0, "translation": [-2e-8, -2e-8, 3e-9], "scale": [4e-8, 4e-8, 4e-8]}])"));

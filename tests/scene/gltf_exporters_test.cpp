@@ -288,6 +288,42 @@ TEST_F(Exporters, NamesAFileOfAnotherFormat) {
                               R"({"asset": {"version": "2.0"}})")));
 }
 
+TEST_F(Exporters, QuotesTheBeginningOfATextThatIsNotGltf) {
+  expect_named("ATOM      1  N   ALA A   1\n", "it is not glTF: it begins with 'ATOM      1 '");
+  expect_named("3\nxyz\nC 0 0 0\n", "it begins with '3', neither with '{'");
+  expect_named(" \n\t", "it has only blanks");
+}
+
+// A validator finds no fault in such a file, so that the message sends nobody there.
+TEST_F(Exporters, SaysThatALimitIsItsOwn) {
+  const auto too_large = [&](const json& document, const std::string& place) {
+    const auto scene = load(document);
+    ASSERT_FALSE(scene);
+    EXPECT_THAT(scene.error().message, AllOf(HasSubstr(place), HasSubstr("at most; make the model smaller"),
+                                             testing::Not(HasSubstr("gltf-validator"))));
+  };
+  json document = square_json();
+  document["buffers"][0]["byteLength"] = 300'000'000;
+  too_large(document, "/buffers/0/byteLength is 300000000, of which TouchAFM reads 268435456");
+  document = square_json();
+  document["accessors"][0]["count"] = 25'000'000;
+  too_large(document, "/accessors/0/count is 25000000, of which TouchAFM reads 24000000");
+  document = square_json();
+  for (std::size_t i = 0; i < 17'000; ++i) document["materials"][i]["name"] = "m";
+  too_large(document, "/materials is a list of 17000, of which TouchAFM reads 16384");
+  document = square_json();
+  document["buffers"][0]["byteLength"] = -1;
+  expect_refused(load(document), "byteLength is -1, not a whole number of 0 to 268435456; export it again");
+}
+
+TEST_F(Exporters, SaysThatAMeshIsTooLargeToBeFramed) {
+  json document = square_json();
+  document["nodes"][1]["scale"] = {1e30, 1e30, 1e30};
+  document["nodes"][0]["scale"] = {1e10, 1e10, 1e10};
+  drawn(document);
+  EXPECT_EQ(notes_.empty, "scene 0 has a mesh larger than 1e37 m: scale it down");
+}
+
 TEST_F(Exporters, IgnoresBytesBehindTheAnnouncedEnd) {
   const auto scene = given("bytes-behind-the-end.glb");
   ASSERT_TRUE(scene) << scene.error().message;

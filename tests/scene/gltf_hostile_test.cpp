@@ -253,7 +253,7 @@ TEST_F(HostileGltf, NamesWhatIsWrongWithThePath) {
   expect_refused(load_gltf(folder_ / "none.glb"), "there is no such file; check the path");
   expect_refused(load_gltf(folder_), "it is not a regular file");
   expect_refused(load_gltf(write("empty.glb", "")), "it is empty");
-  expect_refused(load_gltf(write("noise.glb", "not a model at all")), "JSON is invalid");
+  expect_refused(load_gltf(write("noise.glb", "not a model at all")), "it is not glTF");
 }
 
 TEST_F(HostileGltf, IsRefusedForAFileThatIsTooLarge) {

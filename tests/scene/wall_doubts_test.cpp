@@ -108,6 +108,32 @@ TEST(WallDoubts, NameTheUnitOfCornersOrHeadAlone) {
   EXPECT_THAT(Written().scaled(1e3, 1.0).refusal(), HasSubstr("corners in millimetres and sweet_spot in metres"));
 }
 
+// A person who adds a screen may measure it in another unit than the first.
+TEST(WallDoubts, NameTheUnitOfOneScreenAmongOthers) {
+  Written both;
+  const auto second = [&](const char* corners) {
+    both.more = fmt::format("[[screen]]\nname = \"right\"\n{}\n", corners);
+    return both.refusal();
+  };
+  EXPECT_THAT(
+      second("lower_left = [160, 50, 0]\nlower_right = [160, 50, 240]\nupper_left = [160, 230, 0]"),
+      AllOf(HasSubstr("line 8: screen.lower_left"), HasSubstr("240 m x 180 m, beside screen \"wall\" of 3.20 m"),
+            HasSubstr("with the corners of this screen in centimetres, it would be 2.40 m x 1.80 m"),
+            Not(HasSubstr("sweet_spot"))));
+  EXPECT_THAT(second("lower_left = [1600, 500, 0]\nlower_right = [1600, 500, 2400]\nupper_left = [1600, 2300, 0]"),
+              HasSubstr("with the corners of this screen in millimetres, it would be 2.40 m x 1.80 m"));
+}
+
+// Coordinates of a survey: in floats, neighbouring points would fall together.
+TEST(WallDoubts, RefuseAWallFarFromTheOriginOfItsRoom) {
+  Written surveyed;
+  for (glm::dvec3* point : {&surveyed.lower_left, &surveyed.lower_right, &surveyed.upper_left, &surveyed.head}) {
+    *point += glm::dvec3(448262.0, 0.0, -5411932.0);
+  }
+  EXPECT_THAT(surveyed.refusal(), AllOf(HasSubstr("line 3"), HasSubstr("5430465 m from the room's origin"),
+                                        HasSubstr("subtract one point of the room")));
+}
+
 // Several units may fit; the one that was written is among those named, of a desk, a television and a powerwall.
 TEST(WallDoubts, HaveTheWrittenUnitAmongThoseThatTheyName) {
   const Written television{{-0.5, 0.9, 0}, {0.5, 0.9, 0}, {-0.5, 1.4625, 0}, {0, 1.2, 1.5}, {}, {}, {}};

@@ -36,6 +36,16 @@ TEST(SessionFolder, KeepsASessionUnderTheNextFreeName) {
   EXPECT_TRUE(std::filesystem::exists(scratch.file("kept/session-mica-2.afms")));
 }
 
+TEST(SessionFolder, KeepsASessionOfAMaterialWithASlashInItsName) {
+  const support::ScratchFolder scratch;
+  SessionFolder folder = SessionFolder::open(scratch.file("kept")).value();
+  RecordedSession running = part(0, 100, scene::ServoState::Running);
+  running.material = "SiO2/Si";
+  ASSERT_TRUE(folder.add(running));
+  ASSERT_TRUE(folder.end());
+  EXPECT_TRUE(std::filesystem::exists(scratch.file("kept/session-SiO2%2FSi.afms")));
+}
+
 TEST(SessionFolder, KeepsNothingOfASessionWithoutForce) {
   const support::ScratchFolder scratch;
   SessionFolder folder = SessionFolder::open(scratch.file("kept")).value();

@@ -24,7 +24,8 @@ bool Lines::next(std::string_view& line) {
 
 void refuse_fields(const Lines& lines, std::size_t fields, std::size_t of_heading) {
   if (lines.is_open()) throw CutShort(fmt::format("its last line has {} of {} fields", fields, of_heading));
-  throw CurveError(fmt::format("line {} has {} fields, the heading {}", lines.number(), fields, of_heading));
+  throw CurveError(fmt::format("line {} has {} field{}, the heading {}", lines.number(), fields, fields == 1 ? "" : "s",
+                               of_heading));
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -171,11 +171,11 @@ NanoscopeScale nanoscope_scale(const NanoscopeBlock& image, const Blocks& blocks
   if (!hard->value) throw CurveError("its \"@2:Z scale\" has no number");
   const ScaledUnit hard_unit = scaled_unit(hard->unit);
   const auto soft = hard->soft_name.empty() ? std::nullopt : soft_scale(blocks, hard->soft_name, hard->unit);
-  if (!soft) return {*hard->value * hard_unit.factor, hard_unit.unit};
+  if (!soft) return {*hard->value * hard_unit.factor, hard_unit.unit, std::string(hard->soft_name)};
   if (soft->factor == 0.0) {
     throw CurveError(fmt::format("its \"{}\" is 0, so that its values are unknown", hard->soft_name.substr(0, 40)));
   }
-  return {*hard->value * hard_unit.factor * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit};
+  return {*hard->value * hard_unit.factor * soft->factor, soft->unit.empty() ? hard_unit.unit : soft->unit, ""};
 }
 
 NanoscopeIntegers nanoscope_integers(const NanoscopeBlock& channel, const Blocks& blocks) {

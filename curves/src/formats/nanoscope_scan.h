@@ -33,6 +33,7 @@ NanoscopeArea nanoscope_area(const NanoscopeBlock& image, const std::vector<Nano
 struct NanoscopeScale {
   double factor = 1.0;  // factor per integer over its divisor
   std::string unit;     // SI unit of the values
+  std::string missing;  // named sensitivity that the header lacks; empty: none
 };
 NanoscopeScale nanoscope_scale(const NanoscopeBlock& image, const std::vector<NanoscopeBlock>& blocks);
 

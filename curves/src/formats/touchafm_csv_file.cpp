@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bytes/spreadsheet_text.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
@@ -73,6 +75,11 @@ RecordedCurve read_touchafm_csv(std::string_view bytes) {
   // a complete cycle includes the way up, and its last line has a line end
   if (curve.points.empty() || curve.points.back().branch != physics::Branch::Retract ||
       !(bytes.ends_with('\n') || bytes.ends_with('\r'))) {
+    const bool has_retract = std::any_of(curve.points.begin(), curve.points.end(),
+                                         [](const auto& point) { return point.branch == physics::Branch::Retract; });
+    if (has_retract && curve.points.back().branch == physics::Branch::Approach) {
+      throw CutShort("its last row is of the approach, after rows of the retract (were its rows sorted?)");
+    }
     throw CutShort();
   }
   if (const auto count = static_cast<double>(curve.points.size()); samples > 0.0 && count != samples) {

@@ -162,6 +162,17 @@ std::vector<double> values_of(const ImagePage& page) {
   return values;
 }
 
+// Fast scans have lines up to some tens of pixels apart; farther, one side is probably in another unit than the other.
+std::string doubt_of_pixels(const physics::ScanImage& image) {
+  constexpr double kMostUnequal = 200.0;
+  const double ratio =
+      image.width_m / static_cast<double>(image.columns) / (image.height_m / static_cast<double>(image.rows));
+  if (ratio <= kMostUnequal && ratio >= 1.0 / kMostUnequal) return "";
+  return ratio > 1.0
+             ? fmt::format("its pixels are {:.4g} times as wide as high: is its width in another unit?", ratio)
+             : fmt::format("its pixels are {:.4g} times as high as wide: is its height in another unit?", 1.0 / ratio);
+}
+
 LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat format) {
   if (found.pages.size() + found.unread.size() > kMostChannels) {
     throw CurveError(fmt::format("it has {} channels", found.pages.size() + found.unread.size()));
@@ -207,6 +218,7 @@ LoadedImage assembled(ImagePages found, const std::string& wanted, ImageFormat f
       found.unread.push_back({page.name, fault.what()});
     }
   }
+  if (const std::string doubt = doubt_of_pixels(image); !doubt.empty()) found.remark(doubt);
   loaded.unread = std::move(found.unread);
   loaded.remarks = std::move(found.remarks);
   return loaded;

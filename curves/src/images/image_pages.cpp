@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "curves/curve_error.h"
 
@@ -11,7 +12,10 @@ namespace afm::curves {
 
 std::size_t image_side(double count) {
   if (!(count >= 2.0 && count <= static_cast<double>(kMostImageSide)) || count != std::floor(count)) {
-    throw CurveError(fmt::format("points on a side: {:g}; 2 to {} are read", count, kMostImageSide));
+    const std::string_view advice = count == 1.0             ? ": it is a profile, not an image"
+                                    : count > kMostImageSide ? ": save it with fewer points"
+                                                             : "";
+    throw CurveError(fmt::format("points on a side: {:.12g}; 2 to {} are read{}", count, kMostImageSide, advice));
   }
   return static_cast<std::size_t>(count);
 }

@@ -69,6 +69,11 @@ ImagePage nanoscope_page(std::string_view bytes, const NanoscopeBlock& image, co
   const Captured captured = captured_lines(image, points);
   const std::string_view data = data_of(bytes, image, points, integers.size, captured);
   const NanoscopeScale scale = nanoscope_scale(image, blocks);
+  if (!scale.missing.empty()) {
+    found.remark(
+        fmt::format("its channel {} names the sensitivity \"{}\", which its header lacks: its values are in {}",
+                    nanoscope_name(image), scale.missing.substr(0, 40), scale.unit.empty() ? "no unit" : scale.unit));
+  }
   const NanoscopeArea area =
       nanoscope_area(image, blocks, points, [&](const std::string& sentence) { found.remark(sentence); });
   if (captured.count < points.rows) {

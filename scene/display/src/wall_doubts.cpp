@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kLongestEdgeM = 60.0;     // the largest screens of open-air stages
 constexpr double kFarthestHeadM = 60.0;    // distance at which a wall of 3 m fills three degrees
+constexpr double kFarthestPointM = 1e3;    // distance at which floats, in which pictures are drawn, are 0.1 mm apart
 constexpr double kSmallestExtentM = 0.03;  // size of a watch
 constexpr double kNearestHeadM = 0.1;      // distance nearer than anybody can focus
 constexpr double kGrazing = 0.17;          // sine of ten degrees
@@ -300,6 +301,17 @@ void doubt_keystone(const Output& output, std::vector<std::string>& doubts) {
                                output.name, lost * 100.0, fix));
 }
 
+// Empty for a screen that can be built. Where the other screens are in metres, their sizes give the unit of this one.
+std::string impossible_size(const Wall& wall, const Screen& screen) {
+  if (std::max(screen.width_m(), screen.height_m()) <= kLongestEdgeM) return "";
+  std::string what = fmt::format("the screen would be {:.0f} m x {:.0f} m", screen.width_m(), screen.height_m());
+  const Screen* in_metres = screen_in_metres(wall, screen);
+  if (in_metres == nullptr) return what + "; " + unit_or(wall, wall.viewers.front(), kCheckUnit);
+  const std::string unit = unit_of_one_screen(screen, *in_metres);
+  return what + fmt::format(", beside screen \"{}\" of {:.2f} m x {:.2f} m; {}", in_metres->name, in_metres->width_m(),
+                            in_metres->height_m(), unit.empty() ? kCheckUnit : unit);
+}
+
 }  // namespace
 
 std::vector<std::string> doubts_of(const Wall& wall) {
@@ -334,11 +346,17 @@ std::vector<std::string> notes_of(const Wall& wall) {
 
 std::optional<ImpossibleLength> impossible_length(const Wall& wall) {
   for (std::size_t i = 0; i < wall.screens.size(); ++i) {
-    const Screen& screen = wall.screens[i];
-    if (std::max(screen.width_m(), screen.height_m()) <= kLongestEdgeM) continue;
-    return ImpossibleLength{.index = i,
-                            .what = fmt::format("the screen would be {:.0f} m x {:.0f} m; {}", screen.width_m(),
-                                                screen.height_m(), unit_or(wall, wall.viewers.front(), kCheckUnit))};
+    const std::string what = impossible_size(wall, wall.screens[i]);
+    if (!what.empty()) return ImpossibleLength{.index = i, .what = what};
+  }
+  for (std::size_t i = 0; i < wall.screens.size(); ++i) {
+    const double from_origin_m = glm::length(wall.screens[i].center());
+    if (from_origin_m <= kFarthestPointM) continue;
+    return ImpossibleLength{
+        .index = i,
+        .what = fmt::format("the screen would be {:.0f} m from the room's origin; lengths are in metres: subtract one "
+                            "point of the room, such as the floor in front of the wall, from every point",
+                            from_origin_m)};
   }
   for (std::size_t i = 0; i < wall.viewers.size(); ++i) {
     const WallLengths lengths = lengths_of(wall, wall.viewers[i]);

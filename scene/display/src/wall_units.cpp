@@ -36,6 +36,7 @@ constexpr std::array kOtherUnits{LengthUnit{"millimetres", 1e-3, 0.0}, LengthUni
 constexpr double kPenaltyOfOneInMetres = 0.7, kPenaltyOfTwoUnits = 2.5;
 constexpr double kPenaltyOfAnOddHead = 6.0;  // head behind a screen or very high: the axes are wrong, too
 constexpr double kNearlyAsGood = 3.0;
+constexpr double kMostTimesLarger = 20.0;  // screens of one wall, measured in one unit
 constexpr std::size_t kMostReadings = 3;
 
 std::array<glm::dvec3, 4> corners_of(const Screen& screen) {
@@ -52,6 +53,8 @@ struct Reading {
   bool in_one_unit() const { return screens.m == head.m; }
   bool in_two_other_units() const { return !in_one_unit() && screens.m != kMetres.m && head.m != kMetres.m; }
 };
+
+double longest_edge_m(const Screen& screen) { return std::max(screen.width_m(), screen.height_m()); }
 
 double from_usual(double length_m, double usual_m) { return std::abs(std::log(length_m / usual_m)); }
 
@@ -139,6 +142,28 @@ std::string unit_that_fits(const Wall& wall, const Viewer& viewer) {
     text += (named++ == 0 ? "lengths are in metres: " : "; ") + described(reading);
   }
   return text;
+}
+
+const Screen* screen_in_metres(const Wall& wall, const Screen& too_large) {
+  for (const Screen& screen : wall.screens) {
+    const double edge_m = longest_edge_m(screen);
+    if (edge_m >= kLeastExtentM && longest_edge_m(too_large) > kMostTimesLarger * edge_m) return &screen;
+  }
+  return nullptr;
+}
+
+std::string unit_of_one_screen(const Screen& too_large, const Screen& in_metres) {
+  const LengthUnit* best = nullptr;
+  double least = std::log(kMostTimesLarger);
+  for (const LengthUnit& unit : kOtherUnits) {
+    const double off = from_usual(longest_edge_m(too_large) * unit.m, longest_edge_m(in_metres));
+    if (off >= least) continue;
+    least = off;
+    best = &unit;
+  }
+  if (best == nullptr) return "";
+  return fmt::format("lengths are in metres: with the corners of this screen in {}, it would be {:.2f} m x {:.2f} m",
+                     best->name, too_large.width_m() * best->m, too_large.height_m() * best->m);
 }
 
 }  // namespace afm::scene

@@ -27,4 +27,10 @@ constexpr double kLeastWidths = 0.1;
 // metres: as millimetres, ..."; empty if none fits.
 std::string unit_that_fits(const Wall& wall, const Viewer& viewer);
 
+// Another screen of the wall beside which this one is so large that only its own corners can be in another unit;
+// nullptr if there is none.
+const Screen* screen_in_metres(const Wall& wall, const Screen& too_large);
+// Names the unit of the corners of that one screen, as `unit_that_fits` does; empty if none fits.
+std::string unit_of_one_screen(const Screen& too_large, const Screen& in_metres);
+
 }  // namespace afm::scene

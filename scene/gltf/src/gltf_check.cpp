@@ -12,6 +12,7 @@
 
 #include "core/enumerators.h"
 #include "gltf_error.h"
+#include "gltf_members.h"
 
 namespace afm::scene {
 namespace {
@@ -123,6 +124,10 @@ class Checker {
       return;
     }
     if (!value.is_array()) place.fail(fmt::format("is {}, not a list", quoted(value)));
+    if (value.size() > member.most_elements && member.most_elements >= gltf_member::kMostMaterials) {
+      place.fail(fmt::format("is a list of {}, of which TouchAFM reads {} at most; make the model smaller",
+                             value.size(), member.most_elements));
+    }
     if (value.size() < member.least_elements || value.size() > member.most_elements) {
       place.fail(
           fmt::format("is a list of {}, not of {} to {}", value.size(), member.least_elements, member.most_elements));
@@ -184,6 +189,10 @@ class Checker {
 
   static void check_whole(Json& value, const GltfMember& member, const Place& place) {
     const auto number = whole_number(value);
+    if (member.is_our_limit && number && static_cast<double>(*number) > member.high) {
+      place.fail(fmt::format("is {}, of which TouchAFM reads {:.0f} at most; make the model smaller", quoted(value),
+                             member.high));
+    }
     if (!number || static_cast<double>(*number) < member.low || static_cast<double>(*number) > member.high) {
       place.fail(fmt::format("is {}, not a whole number of {:.0f} to {:.0f}", quoted(value), member.low, member.high));
     }

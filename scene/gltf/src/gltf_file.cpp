@@ -89,7 +89,22 @@ void leave_out_nulls(Json& value) {
   }
 }
 
+// A glTF text is one JSON object, so that its first letter distinguishes it from other texts.
+void check_beginning(std::string_view text) {
+  constexpr std::string_view kUtf8Mark = "\xEF\xBB\xBF";
+  if (text.substr(0, kUtf8Mark.size()) == kUtf8Mark) text.remove_prefix(kUtf8Mark.size());
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) throw GltfError("it has only blanks; export it again");
+  if (text[first] == '{' || text[first] == '[') return;
+  const std::string_view beginning = text.substr(first, 12);
+  throw GltfError(fmt::format(
+      "it is not glTF: it begins with '{}', neither with '{{' nor with the header of a .glb; export glTF 2.0 (.glb) "
+      "from the program that made it",
+      beginning.substr(0, beginning.find_first_of("\r\n"))));
+}
+
 Json parse_text(std::string_view text) {
+  check_beginning(text);
   check_text(text);
   try {
     Json document = Json::parse(text.begin(), text.end());

@@ -21,10 +21,10 @@ constexpr GltfMember kHeader[]{object("asset", kAsset).required(), text("extensi
 
 // Empty parts that nothing uses are common; the users of a view, an accessor or a skin check that it is not empty. An
 // accessor without a view is all zeros, so that a small file can require much memory
-constexpr GltfMember kCount = whole("count", 0, 24'000'000).required();
+constexpr GltfMember kCount = whole("count", 0, 24'000'000).by_our_limit().required();
 constexpr GltfMember kView = index("bufferView", GltfList::BufferViews);
-constexpr GltfMember kOffset = whole("byteOffset", 0, kBytes);
-constexpr GltfMember kLength = whole("byteLength", 0, kBytes).required();
+constexpr GltfMember kOffset = whole("byteOffset", 0, kBytes).by_our_limit();
+constexpr GltfMember kLength = whole("byteLength", 0, kBytes).by_our_limit().required();
 constexpr GltfMember kSparseIndices[]{kView.required(), kOffset, choice("componentType", "5121 5123 5125").required()};
 constexpr GltfMember kSparseValues[]{kView.required(), kOffset};
 constexpr GltfMember kSparse[]{kCount, object("indices", kSparseIndices).required(),
@@ -53,7 +53,7 @@ constexpr GltfMember kMeshopt[]{index("buffer", GltfList::Buffers).required(),
                                 kOffset,
                                 kLength,
                                 whole("byteStride", 1, 256).required(),
-                                whole("count", 0, kBytes).required(),
+                                whole("count", 0, kBytes).by_our_limit().required(),
                                 choice("mode", "ATTRIBUTES TRIANGLES INDICES").required(),
                                 choice("filter", "NONE OCTAHEDRAL QUATERNION EXPONENTIAL")};
 constexpr GltfMember kBufferViewExtensions[]{object("EXT_meshopt_compression", kMeshopt)};

@@ -59,6 +59,7 @@ struct GltfMember {
   std::string_view needs{};   // required member of the same object
   std::string_view bars{};    // excluded members of the same object, separated by spaces
   double slack = 0.0;         // overshoot of `low` or `high` up to which a number becomes the limit, with a note
+  bool is_our_limit = false;  // true: glTF 2.0 allows more than `high`
   bool clamps_above = false;  // true: any number above `high` becomes `high`, with a note
 
   constexpr GltfMember required() const {
@@ -80,6 +81,11 @@ struct GltfMember {
   constexpr GltfMember rounded(double distance) const {
     GltfMember copy = *this;
     copy.slack = distance;
+    return copy;
+  }
+  constexpr GltfMember by_our_limit() const {
+    GltfMember copy = *this;
+    copy.is_our_limit = true;
     return copy;
   }
   constexpr GltfMember clamped_above() const {

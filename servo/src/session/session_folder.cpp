@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/file_names.h"
 #include "core/log.h"
 
 namespace afm::servo {
@@ -22,9 +23,10 @@ core::Result<SessionFolder> SessionFolder::open(const std::string& path) {
 }
 
 core::Result<SessionWriter> SessionFolder::new_file(const RecordedSession& part) const {
-  std::string file = fmt::format("{}/session-{}.afms", path_, part.material);
+  const std::string material = core::in_file_name(part.material);
+  std::string file = fmt::format("{}/session-{}.afms", path_, material);
   for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(file)); ++number) {
-    file = fmt::format("{}/session-{}-{}.afms", path_, part.material, number);
+    file = fmt::format("{}/session-{}-{}.afms", path_, material, number);
   }
   return SessionWriter::create(part, file);
 }

@@ -61,7 +61,7 @@ constexpr std::array kNotRun{
     Exception{"touchafm-*-x86_64/bin/touchafm demo --out out", kBundle},
     Exception{"touchafm bench physics", kMinutes},
     Exception{"touchafm bench fits", kMinutes},
-    Exception{"touchafm lesson assets/lessons/first-touch.toml --fullscreen --instructor 2", "needs a second monitor"},
+    Exception{"touchafm lesson first-touch --fullscreen --instructor 2", "needs a second monitor"},
     Exception{"touchafm lesson --withdraw QXWERT --out study", "needs a person's consent: LessonProgram.* has it"},
     Exception{"touchafm generate curve", kName},
     Exception{"touchafm view --record", kName},

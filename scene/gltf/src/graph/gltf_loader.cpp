@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <new>
 
 #include "gltf_error.h"
@@ -30,12 +31,30 @@ void add_note(std::vector<std::string>& notes, const std::string& what) {
   if (notes.size() < kMostNotes && std::find(notes.begin(), notes.end(), line) == notes.end()) notes.push_back(line);
 }
 
-// True unless all vertices of the node's mesh are at one place, which leaves the picture empty; true for points.
-bool has_size(const Scene& scene, const Node& node) {
+glm::dmat4 room_from(const Scene& scene, const Node& node) {
   glm::dmat4 room_from_node = node.parent_from_node;
   for (auto above = node.parent; above; above = scene.nodes[*above].parent) {
     room_from_node = scene.nodes[*above].parent_from_node * room_from_node;
   }
+  return room_from_node;
+}
+
+// The picture is framed in floats; sizes beyond their largest value, 3.4e38, leave it empty.
+bool is_within_floats(const Scene& scene, const Node& node) {
+  constexpr double kFarthestM = 1e37;
+  const glm::dmat4 room_from_node = room_from(scene, node);
+  for (const Primitive& primitive : scene.meshes[*node.mesh].primitives) {
+    for (const Vertex& vertex : primitive.vertices) {
+      const glm::dvec3 place(room_from_node * glm::dvec4(glm::dvec3(vertex.position), 1.0));
+      if (!(std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)}) < kFarthestM)) return false;
+    }
+  }
+  return true;
+}
+
+// True unless all vertices of the node's mesh are at one place, which leaves the picture empty; true for points.
+bool has_size(const Scene& scene, const Node& node) {
+  const glm::dmat4 room_from_node = room_from(scene, node);
   for (const Primitive& primitive : scene.meshes[*node.mesh].primitives) {
     const auto place = [&](const Vertex& vertex) {
       return glm::dvec3(room_from_node * glm::dvec4(glm::dvec3(vertex.position), 1.0));
@@ -49,17 +68,20 @@ bool has_size(const Scene& scene, const Node& node) {
 
 // Message that names the scene used, if nothing in it can be drawn.
 std::string why_empty(const tinygltf::Model& model, const Scene& scene) {
-  bool has_mesh = false, has_primitive = false;
+  bool has_mesh = false, has_primitive = false, has_shown = false, has_endless = false;
   for (const Node& node : scene.nodes) {
     if (!node.mesh) continue;
     has_mesh = true;
     if (scene.meshes[*node.mesh].primitives.empty()) continue;
     has_primitive = true;
-    if (!scene.animations.empty() || has_size(scene, node)) return "";  // a moving node may grow from nothing
+    has_endless |= !is_within_floats(scene, node);
+    has_shown |= !scene.animations.empty() || has_size(scene, node);  // a moving node may grow from nothing
   }
-  const std::string reason = has_primitive ? "has only meshes without size"
-                             : has_mesh    ? "has only meshes that cannot be drawn"
-                                           : "has no node with a mesh";
+  if (has_shown && !has_endless) return "";
+  const std::string reason = has_endless     ? "has a mesh larger than 1e37 m: scale it down"
+                             : has_primitive ? "has only meshes without size"
+                             : has_mesh      ? "has only meshes that cannot be drawn"
+                                             : "has no node with a mesh";
   if (model.scenes.empty()) return "the file, which lists no scene, " + reason;
   const auto shown = static_cast<std::size_t>(std::max(0, model.defaultScene));
   const std::string& name = model.scenes[shown].name;
