@@ -270,7 +270,7 @@ TEST(LabImageFiles, AreRefusedWhereAnAlteredHeaderWouldGiveOtherHeights) {
   EXPECT_THAT(reason("\\@Sens. Zsens: V ", "0 nm/V"), HasSubstr("its \"Sens. Zsens\" is 0"));
 }
 
-// Whoever wrote it changed the header, but not the data.
+// As of a program that changes the header, but not the data.
 TEST(LabImageFiles, RemarkOnPointsThatTheHeaderDoesNotMention) {
   const test::NanoscopeChannel height = nanoscope("Height", 4, 4);
   const std::string whole = test::nanoscope_file("0x08150300", {height}),
