@@ -12,6 +12,7 @@ void add_cycles(pybind11::module_& module);    // adds cycles, sweeps, the paper
 void add_files(pybind11::module_& module);     // adds curves from files
 void add_images(pybind11::module_& module);    // adds images from files
 void add_fits(pybind11::module_& module);      // adds analysis and fits
+void add_drive(pybind11::module_& module);
 void add_tapping(pybind11::module_& module);
 void add_frequency_shifts(pybind11::module_& module);
 void add_scans(pybind11::module_& module);      // adds images of the virtual microscope

@@ -190,9 +190,11 @@ void add_sweep(py::module_& module) {
   };
   static constexpr std::array kColumns{
       Column{"snap_in_z", &SweepRow::snap_in_z_m, "Height of the base at the jump to contact, m; NaN without one."},
+      Column{"z_jtc", &SweepRow::snap_in_z_m, "The same as snap_in_z, m, by its name in figures."},
       Column{"snap_in_force_before", &SweepRow::snap_in_force_before_n, "Force before it, N."},
       Column{"snap_in_force_after", &SweepRow::snap_in_force_after_n, "Force after it, N."},
       Column{"pull_off_z", &SweepRow::pull_off_z_m, "Height of the base at the jump off contact, m; NaN without one."},
+      Column{"z_joc", &SweepRow::pull_off_z_m, "The same as pull_off_z, m, by its name in figures."},
       Column{"pull_off_force", &SweepRow::pull_off_force_n, "Pull-off force, N: negative."},
       Column{"loop_energy", &SweepRow::loop_energy_j, "Energy lost in a cycle, J."},
       Column{"critical_stiffness", &SweepRow::critical_stiffness_n_per_m, "Stiffness without hysteresis, N/m."},

@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
   add_files(module);
   add_images(module);
   add_fits(module);
+  add_drive(module);
   add_tapping(module);
   add_frequency_shifts(module);
   add_scans(module);

@@ -26,6 +26,7 @@
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/contact.h"
+#include "python/drive.h"
 #include "python/errors.h"
 #include "python/json.h"
 #include "python/long_work.h"
@@ -57,6 +58,18 @@ physics::Length length(const std::optional<double>& si, const char* option,
 }
 
 using Numbers = std::map<std::string, double, std::less<>>;
+
+void add_drive_to(Numbers& numbers, const DriveArgument& drive) {
+  Drive beside;
+  for (const DriveMember& each : kDriveMembers) {
+    const auto found = numbers.find(each.option);
+    if (found != numbers.end()) beside.*each.value = found->second;
+  }
+  const Drive all = joined(drive, beside);
+  for (const DriveMember& each : kDriveMembers) {
+    if (all.*each.value) numbers[std::string(each.option)] = *(all.*each.value);
+  }
+}
 
 // Takes the numbers of a lever that taps out of the keywords.
 void set_tapping(Numbers& numbers, ScanRequest& request) {
@@ -109,7 +122,8 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
                                 const std::optional<Whole>& pixels, std::optional<double> x, std::optional<double> y,
                                 const std::optional<std::string>& direction, bool feedback,
                                 const std::optional<std::string>& tip, std::optional<double> tip_angle, bool show_truth,
-                                const std::optional<Whole>& seed, const std::string& mode, const py::kwargs& given) {
+                                const std::optional<Whole>& seed, const std::string& mode, const DriveArgument& drive,
+                                const py::kwargs& given) {
   ScanRequest request;
   if (contact) request.contact = contact->options();
   request.contact.assets_dir = assets_dir();
@@ -132,6 +146,7 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
   constexpr std::uint32_t kMostSeed = std::numeric_limits<std::uint32_t>::max();
   if (seed) request.seed = static_cast<std::uint32_t>(whole_within("seed", *seed, 0, kMostSeed));
   Numbers numbers = numbers_of(given);
+  add_drive_to(numbers, drive);
   if (mode == "tapping") {
     set_tapping(numbers, request);
   } else if (mode != "contact") {
@@ -248,7 +263,7 @@ void add_scans(py::module_& module) {
       py::arg("pixels") = py::none(), py::arg("x") = py::none(), py::arg("y") = py::none(),
       py::arg("direction") = py::none(), py::arg("feedback") = true, py::arg("tip") = py::none(),
       py::arg("tip_angle") = py::none(), py::arg("show_truth") = false, py::arg("seed") = py::none(),
-      py::arg("mode") = "contact",
+      py::arg("mode") = "contact", py::arg("drive") = py::none(),
       "An image of a contact's sample, or of one's own, as touchafm scan takes it.\n\n"
       "contact: of a material, such as Contact.material(\"gold\"); with sample it may be left out. sample: a glTF\n"
       "model or an image, with sample_channel and level (\"none\", \"plane\", \"lines\") of that image.\n"
@@ -257,7 +272,8 @@ void add_scans(py::module_& module) {
       "channels.\n"
       "mode: \"contact\", or \"tapping\", which needs free_amplitude, m, and takes amplitude_setpoint, m (default: "
       "0.8\n"
-      "of it), drive, Hz, viscosity, Pa*s, contact_gap, m, resonance, Hz, and quality_factor.\n"
+      "of it), drive, Hz, viscosity, Pa*s, contact_gap, m, resonance, Hz, and quality_factor; or drive is a\n"
+      "Drive with these numbers.\n"
       "Further numbers in SI have the names of the command's options: rate Hz, setpoint N, integral_gain 1/s, ...\n"
       "Raises ValueError as the command refuses its options, FileError for a file that cannot be used.\n"
       "docs/physics.md and docs/tapping.md have the equations with their sources.");

@@ -26,9 +26,12 @@ namespace {
 
 namespace py = pybind11;
 
-// The field of a keyword; null if there is none. The tip is named as in a contact.
+// The field of a keyword; null if there is none. The tip is named as in a contact, E and W as in a fit.
 const curves::SyntheticField* field_of(std::string_view option) {
-  const std::string_view name = option == "tip-radius" ? std::string_view("radius") : option;
+  std::string_view name = option;
+  if (option == "tip-radius") name = "radius";
+  if (option == "E") name = "modulus";
+  if (option == "W") name = "work-of-adhesion";
   for (const curves::SyntheticField& field : curves::kSyntheticFields) {
     if (field.option == name && option != "radius") return &field;
   }
@@ -40,6 +43,9 @@ std::vector<curves::GivenNumber> given_numbers(const py::kwargs& given) {
   for (const auto& [option, si] : numbers_of(given)) {
     const curves::SyntheticField* field = field_of(option);
     if (field == nullptr) unknown_keyword("generate", keyword_of(option));
+    for (const curves::GivenNumber& other : numbers) {
+      if (other.field == field) refuse(fmt::format("{}: it is given twice; leave one out", keyword_of(option)));
+    }
     const curves::QuantityDomain domain{field->units->sort, field->units->units,
                                         curves::QuantityRange<double>{field->smallest, field->largest}};
     const std::string refusal = curves::refusal(si, physics::format_si(si, domain.units), domain);
@@ -72,9 +78,13 @@ py::tuple with_truth(curves::SyntheticFile file) {
   return py::make_tuple(std::move(made), dict_of_text(file.truth));
 }
 
-py::tuple generate(const std::optional<std::string>& law, const Whole& given_count, const std::optional<Whole>& points,
-                   const std::optional<Whole>& seed, const std::optional<std::string>& base, const py::kwargs& given) {
-  const std::size_t count = whole_within("count", given_count, 1, curves::kMostSyntheticPoints);
+py::tuple generate(const std::optional<std::string>& law, const std::optional<Whole>& given_count,
+                   const std::optional<Whole>& n, const std::optional<Whole>& points, const std::optional<Whole>& seed,
+                   const std::optional<std::string>& base, const py::kwargs& given) {
+  if (given_count && n) refuse("count and n are the same; leave one out");
+  const Whole one = std::uint64_t{1};
+  const std::size_t count =
+      whole_within(n ? "n" : "count", given_count.value_or(n.value_or(one)), 1, curves::kMostSyntheticPoints);
   return with_truth(
       value_of(long_work([setup = setup_of(law, points, seed, base, given), count](const std::stop_token&) {
         return curves::synthetic_curves(setup, count);
@@ -119,12 +129,14 @@ py::tuple generate_map(const std::optional<std::string>& law,
 
 void add_synthetic(py::module_& module) {
   module.def(
-      "generate", &generate, py::arg("law") = py::none(), py::kw_only(), py::arg("count") = std::uint64_t{1},
-      py::arg("points") = py::none(), py::arg("seed") = py::none(), py::arg("base") = py::none(),
+      "generate", &generate, py::arg("law") = py::none(), py::kw_only(), py::arg("count") = py::none(),
+      py::arg("n") = py::none(), py::arg("points") = py::none(), py::arg("seed") = py::none(),
+      py::arg("base") = py::none(),
       "Curves as an instrument records them and their truth, as touchafm generate curve makes them: a list of\n"
       "Curve, and the dict of the truth file.\n\n"
-      "Numbers in SI, with the names of the command's options: modulus, tip_radius, spring_constant, most_force,\n"
-      "noise, ... The same seed gives the same bytes. Raises ValueError as the command refuses its options.\n"
+      "count, or n: number of curves, default 1. Numbers in SI, with the names of the command's options: modulus\n"
+      "or E, work_of_adhesion or W, tip_radius, spring_constant, most_force, noise, ... The same seed gives the same "
+      "bytes. Raises ValueError as the command refuses its options.\n"
       "docs/generate.md has the keys of the truth, docs/fits.md the equations with their sources.");
   module.def(
       "generate_map", &generate_map, py::arg("law") = py::none(), py::kw_only(), py::arg("pixels") = py::none(),

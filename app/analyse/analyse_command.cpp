@@ -340,7 +340,7 @@ void add_analyse_command(OptionList& program, const CommandContext&) {
       "         touchafm analyse gel.jpk-force --fit sphere --radius 5um --out gel.svg\n"
       "         touchafm analyse pdms.jpk-force --fit auto --radius 1um --uncertainty radius=10%\n"
       "         touchafm analyse day1/*.jpk-force --fit sphere --radius 5um --out day1-fits\n"
-      "         touchafm analyse cell.jpk-qi-data --fit paraboloid --radius 30nm --out cell-fits\n"
+      "         touchafm analyse cell.jpk-qi-data --fit cone --half-angle 18deg --out cell-fits\n"
       "         touchafm analyse table.txt --columns \"height:um force:nN\" --spring-constant 0.1N/m\n"
       "         touchafm analyse mica.spm --channel \"Height Sensor\" --json");
   command.when_chosen([options, files, of_kind = std::move(of_kind)]() -> core::Result<void> {

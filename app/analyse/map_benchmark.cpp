@@ -241,7 +241,7 @@ void add_map_benchmark(OptionList& bench) {
   add_reading_options(command, options->reading);
   add_fit_options(command, options->fit);
   command.add_flag("--json", options->json, "print JSON with times in seconds instead of a table");
-  command.footer("example: touchafm bench maps cell.jpk-qi-data --fit paraboloid --radius 30nm");
+  command.footer("example: touchafm bench maps cell.jpk-qi-data --fit cone --half-angle 18deg");
   command.when_chosen([options]() -> core::Result<void> {
     if (const auto checked = curves::prepare(options->fit); !checked) return checked;
     const auto times = time_map(*options);

@@ -70,6 +70,7 @@ class Judge {
     // a force that never changes has neither depth nor noise
     add(fit, Doubt::Shallow, fit.depth_m > 0.0 ? fit.depth_m * setup_.spring_n_per_m / fit.noise_n : 0.0);
     if (!fit.adhesion) judge_adhesion(fit, push_n);
+    if (row_of(fit.shape).has_radius) add(fit, Doubt::BeyondTip, fit.depth_m / setup_.indenter.radius_m);
     add(fit, Doubt::BeyondLayer, layer_strain(setup_.indenter, fit.depth_m));
     if (fit.rms_n > kRounding * push_n) judge_residuals(fit);
     add(fit, Doubt::ShortBaseline, 1.0 - static_cast<double>(fit.in_contact) / static_cast<double>(fit.points));
@@ -178,7 +179,7 @@ class Judge {
 
 }  // namespace
 
-constexpr std::array<DoubtRow, 16> kDoubts{{
+constexpr std::array<DoubtRow, 17> kDoubts{{
     {Doubt::NeverPushed, true, Side::Below, 5.0, "the sample is hardly pushed: greatest push over the noise"},
     {Doubt::Saturated, true, Side::Above, 5.0,
      "the greatest force stays constant, as at a detector's limit: its points over those of a usual force"},
@@ -189,6 +190,7 @@ constexpr std::array<DoubtRow, 16> kDoubts{{
     {Doubt::Shallow, false, Side::Below, 3.0, "depth over that of the noise"},
     {Doubt::Adhesive, false, Side::Above, 0.05,
      "the tip sticks, but the shape has no adhesion: hardest pull over the greatest push"},
+    {Doubt::BeyondTip, false, Side::Above, 1.0, "deeper than the tip is round: depth over its radius"},
     {Doubt::BeyondLayer, false, Side::Above, 1.0, "deeper than the layer's formula allows: strain over its limit"},
     {Doubt::NotLevel, false, Side::Above, 3.0,
      "the modulus depends on the depth: half the depth differs, in standard deviations"},

@@ -13,6 +13,7 @@
 #include "core/printable.h"
 #include "instrument/simulated_instrument.h"
 #include "nanonis_bytes.h"
+#include "nanonis_others.h"
 #include "nanonis_properties.h"
 #include "nanonis_signals.h"
 #include "physics/imaging/scan_image.h"
@@ -370,6 +371,7 @@ Door::Then NanonisDoor::answer(std::string_view request, const Send& send) {
   const auto row = std::find_if(Functions::kRows.begin(), Functions::kRows.end(),
                                 [name](const Functions::Row& each) { return each.name == name; });
   if (row == Functions::kRows.end()) {
+    results.assign(result_size_of_other(name), '\0');
     error = fmt::format("TouchAFM does not have the function {}", core::printable(name));
   } else {
     try {

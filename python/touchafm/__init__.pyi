@@ -5,6 +5,10 @@ from typing import Any, Literal, Mapping, NoReturn, Optional, Sequence, Union, f
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import compat as compat
+from . import serve as serve
+from .maps import fit as fit_map
+
 __version__: str
 
 _Floats = NDArray[np.float64]
@@ -113,6 +117,31 @@ class Law:
     def figures(self) -> Figures: ...
 
 @final
+class Drive:
+    def __init__(
+        self,
+        *,
+        free_amplitude: float,
+        resonance: Optional[float] = ...,
+        quality_factor: Optional[float] = ...,
+        frequency: Optional[float] = ...,
+        viscosity: Optional[float] = ...,
+        contact_gap: Optional[float] = ...,
+    ) -> None: ...
+    @property
+    def free_amplitude(self) -> Optional[float]: ...
+    @property
+    def resonance(self) -> Optional[float]: ...
+    @property
+    def quality_factor(self) -> Optional[float]: ...
+    @property
+    def frequency(self) -> Optional[float]: ...
+    @property
+    def viscosity(self) -> Optional[float]: ...
+    @property
+    def contact_gap(self) -> Optional[float]: ...
+
+@final
 class Event:
     def __init__(self, *args: Any, **kwargs: Any) -> NoReturn: ...
     @property
@@ -163,6 +192,10 @@ class Sweep:
     def __init__(self, *args: Any, **kwargs: Any) -> NoReturn: ...
     @property
     def snap_in_z(self) -> _Floats: ...
+    @property
+    def z_jtc(self) -> _Floats: ...
+    @property
+    def z_joc(self) -> _Floats: ...
     @property
     def snap_in_force_before(self) -> _Floats: ...
     @property
@@ -289,6 +322,17 @@ class Tapping:
     def energy_lost(self) -> _Floats: ...
     @property
     def approach(self) -> _Bools: ...
+    @property
+    def folds(self) -> list[dict[str, Any]]: ...
+    def states(self, z: float) -> list[dict[str, Any]]: ...
+    def curve(
+        self,
+        *,
+        z_from: Optional[float] = ...,
+        z_to: Optional[float] = ...,
+        step: Optional[float] = ...,
+        speed: Optional[float] = ...,
+    ) -> Tapping: ...
     def as_dict(self) -> dict[str, Any]: ...
     def __len__(self) -> int: ...
 
@@ -404,32 +448,40 @@ class Study:
     def trials(self) -> dict[str, Any]: ...
     def as_dict(self) -> dict[str, Any]: ...
 
-def lever(
-    *,
-    thermal: Optional[Union[_Path, tuple[_Numbers, _Numbers]]] = ...,
-    unit: Literal["m", "V"] = ...,
-    low: Optional[float] = ...,
-    high: Optional[float] = ...,
-    averages: Optional[float] = ...,
-    mode: int = ...,
-    sader: bool = ...,
-    fluid: Optional[Literal["air", "water"]] = ...,
-    sensitivity_from: Optional[_Path] = ...,
-    bandwidth: Optional[float] = ...,
-    sensitivity: Optional[float] = ...,
-    contact_stiffness: Optional[float] = ...,
-    temperature: Optional[float] = ...,
-    mode_factor: Optional[float] = ...,
-    spring_constant: Optional[float] = ...,
-    length: Optional[float] = ...,
-    width: Optional[float] = ...,
-    resonance: Optional[float] = ...,
-    quality_factor: Optional[float] = ...,
-    density: Optional[float] = ...,
-    viscosity: Optional[float] = ...,
-    gci: Optional[float] = ...,
-    tilt: Optional[float] = ...,
-) -> Lever: ...
+class _LeverCalibration:
+    def __call__(
+        self,
+        *,
+        thermal: Optional[Union[_Path, tuple[_Numbers, _Numbers]]] = ...,
+        unit: Literal["m", "V"] = ...,
+        low: Optional[float] = ...,
+        high: Optional[float] = ...,
+        averages: Optional[float] = ...,
+        mode: int = ...,
+        sader: bool = ...,
+        fluid: Optional[Literal["air", "water"]] = ...,
+        sensitivity_from: Optional[_Path] = ...,
+        bandwidth: Optional[float] = ...,
+        sensitivity: Optional[float] = ...,
+        contact_stiffness: Optional[float] = ...,
+        temperature: Optional[float] = ...,
+        mode_factor: Optional[float] = ...,
+        spring_constant: Optional[float] = ...,
+        length: Optional[float] = ...,
+        width: Optional[float] = ...,
+        resonance: Optional[float] = ...,
+        quality_factor: Optional[float] = ...,
+        density: Optional[float] = ...,
+        viscosity: Optional[float] = ...,
+        gci: Optional[float] = ...,
+        tilt: Optional[float] = ...,
+    ) -> Lever: ...
+    def thermal(
+        self, frequency: _Numbers, density: _Numbers, *, invols: Optional[float] = ..., **given: Any
+    ) -> Lever: ...
+
+lever: _LeverCalibration
+
 def materials() -> list[str]: ...
 def probes() -> list[str]: ...
 def law(name: str, contact: Contact) -> Law: ...
@@ -483,11 +535,11 @@ def fit(
 ) -> Fit: ...
 def tapping(
     contact: Contact,
+    drive: Optional[Union[Drive, float]] = ...,
     *,
-    free_amplitude: float,
+    free_amplitude: Optional[float] = ...,
     resonance: Optional[float] = ...,
     quality_factor: Optional[float] = ...,
-    drive: Optional[float] = ...,
     contact_gap: Optional[float] = ...,
     viscosity: Optional[float] = ...,
     law: Optional[str] = ...,
@@ -528,13 +580,15 @@ def scan(
     show_truth: bool = ...,
     seed: Optional[int] = ...,
     mode: Literal["contact", "tapping"] = ...,
+    drive: Optional[Union[Drive, float]] = ...,
     **numbers: float,
 ) -> Scan: ...
 def level(heights: ArrayLike, how: Literal["none", "plane", "lines"] = ...) -> _Floats: ...
 def generate(
     law: Optional[str] = ...,
     *,
-    count: int = ...,
+    count: Optional[int] = ...,
+    n: Optional[int] = ...,
     points: Optional[int] = ...,
     seed: Optional[int] = ...,
     base: Optional[str] = ...,

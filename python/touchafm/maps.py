@@ -1,26 +1,59 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fits of all curves of a map, as arrays.
 
->>> import touchafm.maps
->>> found = touchafm.maps.fit(touchafm.read("cell.h5"), model="paraboloid", tip_radius=5e-6)
+>>> import touchafm
+>>> found = touchafm.fit_map(touchafm.read("cell.h5"), model="paraboloid", tip_radius=5e-6)
 >>> found.E[0]  # the top row, Pa
->>> touchafm.write_image("cell.gwy", {"Modulus": (found.E, "Pa")}, width=found.width, height=found.height)
+>>> found.image("E").save("cell.gwy")
+>>> found.table.to_csv("cell.csv")
+
+touchafm.fit_map is fit() of this module.
 
 The numbers are those of touchafm.fit() for each curve alone, and of the maps that touchafm analyse --fit writes.
 """
 
+import csv
+import importlib
 import os
 import typing
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any, Callable, Optional
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import Analysis, Curve, DataError, Fit, analyse
+from . import Analysis, Curve, DataError, Fit, analyse, write_image
 from . import fit as fit_curve
 
-__all__ = ["FitMap", "fit"]
+__all__ = ["FitMap", "MapImage", "Table", "fit"]
+
+_UNITS = {"E": "Pa", "contact_point": "m", "depth": "m", "W": "J/m^2", "adhesion": "N"}
+
+
+class MapImage(typing.NamedTuple):
+    """One quantity of a map as an image. SI."""
+
+    name: str  #: "E", for example
+    values: NDArray[np.float64]  #: row 0 at the top
+    unit: str  #: SI unit of the values
+    width: float  #: width of the map, m
+    height: float  #: height of the map, m
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes .gwy or .gsf, whole or not at all. FileError if it cannot be written, ValueError for another ending."""
+        write_image(path, {self.name: (self.values, self.unit)}, width=self.width, height=self.height)
+
+
+class Table(dict[str, list[Any]]):
+    """Columns by their names, which have SI units; a row for each pixel. Where pandas is installed, a DataFrame takes its place."""
+
+    def to_csv(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the columns as text between commas, numbers with all digits, NaN as nothing. OSError if it cannot be written."""
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(self)
+            for row in zip(*self.values()):
+                writer.writerow("" if isinstance(each, float) and each != each else each for each in row)
 
 
 class FitMap(typing.NamedTuple):
@@ -36,6 +69,26 @@ class FitMap(typing.NamedTuple):
     reasons: dict[int, str]  #: why, by the number of the curve
     width: float  #: width of the map, m; touchafm.write_image() takes it
     height: float  #: height of the map, m
+
+    def image(self, name: str) -> MapImage:
+        """"E", "contact_point", "depth", "W" or "adhesion" as an image, in SI. ValueError for another name."""
+        if name not in _UNITS:
+            raise ValueError(f"a map has no image {name!r}; choose {', '.join(_UNITS)}")
+        return MapImage(name, getattr(self, name), _UNITS[name], self.width, self.height)
+
+    @property
+    def table(self) -> Any:
+        """A row for each pixel, the top one first: row and column from the top left, numbers in SI, and the flag. A DataFrame of pandas if
+        it is installed, else a Table; both have to_csv(). Where nothing was fitted a number is NaN."""
+        rows, columns = np.indices(self.E.shape)
+        table = Table(row=rows.ravel().tolist(), column=columns.ravel().tolist())
+        for name, unit in _UNITS.items():
+            table[f"{name}_{unit.replace('/', '_per_').replace('^', '')}"] = getattr(self, name).ravel().tolist()
+        table["flag"] = self.flag.ravel().tolist()
+        try:
+            return importlib.import_module("pandas").DataFrame(table)
+        except ImportError:
+            return table
 
 
 class _Found(typing.NamedTuple):

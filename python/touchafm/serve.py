@@ -222,11 +222,13 @@ class Client:
             "figures": answer["figures"],
         }
 
-    def scan(self, on_line: Optional[_OnLine] = None) -> dict[str, _Floats]:
+    def scan(self, on_line: Optional[_OnLine] = None, **values: Any) -> dict[str, _Floats]:
         """An image around the tip: a dict of its channels in SI, row 0 on top, "Height" to "Lateral force (retrace)", in
-        tapping mode to "Peak force (retrace)".
+        tapping mode to "Peak force (retrace)". values: settings that are changed before, as by set(), such as lines=64.
 
         on_line is called with each line as it comes; if it returns False the scan ends, and what was not scanned is NaN."""
+        if values:
+            self.set(**values)
         rows: list[dict[str, Any]] = []
 
         def take(line: dict[str, Any]) -> Any:
@@ -288,8 +290,11 @@ def _plain(value: object) -> object:
     raise TypeError(f"a request cannot hold {type(value).__name__}")
 
 
-def connect(path: _Path, *, timeout: float = 60.0) -> Client:
-    """A client of a running server. timeout: longest wait for an answer, s. OSError if nobody listens there."""
+def connect(path: Optional[_Path] = None, *, timeout: float = 60.0) -> Client:
+    """A client of a running server; without a path of start(), a server of its own. timeout: longest wait for an answer, s. OSError if
+    nobody listens there."""
+    if path is None:
+        return start(timeout=timeout)
     try:
         return Client(path, timeout=timeout)
     except OSError as error:

@@ -86,13 +86,16 @@ TEST(ColumnTable, OfOneWayHasNoTurnInItsNoise) {
 TEST(ColumnTable, LeavesOutAnEndWithoutNumbers) {
   const CurveReading two = columns("height:um force:nN");
   const std::size_t whole = parse_curve(table(";"), "a.csv", two)->points.size();
-  for (const char* end : {"NaN;NaN\n", "nan;nan\n;\n", ";\n;\n", "; nan\n\n"}) {
+  for (const auto& [end, said] :
+       {std::pair("NaN;NaN\n", "the last line is left out"), std::pair("nan;nan\n;\n", "the last 2 lines are"),
+        std::pair(";\n;\n", "the last 2 lines are"), std::pair("; nan\n\n", "the last line is")}) {
     const auto curve = parse_curve(table(";") + end, "a.csv", two);
     ASSERT_TRUE(curve) << curve.error().message;
     EXPECT_EQ(curve->points.size(), whole);
-    EXPECT_THAT(curve->metadata.remarks, testing::Contains(HasSubstr("have no numbers: they are left out"))) << end;
+    EXPECT_THAT(curve->metadata.remarks, testing::Contains(HasSubstr(said))) << end;
   }
-  EXPECT_THAT(refusal(table(";") + "NaN;NaN\n1;2\n", two), HasSubstr("line 31 has numbers, and the 1 lines before"));
+  EXPECT_THAT(refusal(table(";") + "NaN;NaN\n1;2\n", two),
+              HasSubstr("line 31 has numbers, and the line before it none"));
 }
 
 TEST(ColumnTable, WithTheRowsOfTwoCurvesIsRefused) {

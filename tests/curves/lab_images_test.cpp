@@ -279,6 +279,23 @@ TEST(LabImageFiles, AreRefusedWhereAnAlteredHeaderWouldGiveOtherHeights) {
   EXPECT_THAT(reason("\\@Sens. Zsens: V ", "0 nm/V"), HasSubstr("its \"Sens. Zsens\" is 0"));
 }
 
+// As of a program that changes the header, but not the data.
+TEST(LabImageFiles, RemarkOnPointsThatTheHeaderDoesNotMention) {
+  const test::NanoscopeChannel height = nanoscope("Height", 4, 4);
+  const std::string whole = test::nanoscope_file("0x08150300", {height}),
+                    both = test::nanoscope_file("0x08150300", {height, height});
+  for (const std::string& honest : {whole, both, whole + std::string(31, ' ')})
+    EXPECT_THAT(parsed(honest).remarks, IsEmpty());
+  const auto halved = [](std::string bytes, const std::string& key, const char* half) {
+    return altered(altered(bytes, key, half), "\\Data length: ", "16");
+  };
+  for (const auto& bytes : {halved(whole, "\\Number of lines: ", "2"), halved(whole, "\\Samps/line: ", "2"),
+                            halved(both, "\\Number of lines: ", "2")}) {
+    EXPECT_THAT(parsed(bytes).remarks,
+                testing::Contains(HasSubstr("points of Height lie 16 bytes that the header does not")));
+  }
+}
+
 TEST(LabImageFiles, HaveTheirHeightsWhateverTheUnitOfASensitivity) {
   const std::string whole = test::nanoscope_file("0x08150300", {nanoscope("Height", 4, 2)});
   const double height_m = parsed(whole).image.channels.at(0).values.at(3);

@@ -97,6 +97,20 @@ TEST(NanosurfImage, SpreadsItsIntegersOverTheirRange) {
   EXPECT_THAT(image.image.metadata, ElementsAre(Pair("Head type", "EZ2-AFM")));
 }
 
+// A range in another unit than the other numbers of its dimension was read as one in theirs.
+TEST(NanosurfImage, ReadsTheUnitBehindANumber) {
+  const LoadedImage usual = loaded(nanosurf_file({{}}));
+  for (const char* same : {"6.5536e-05 m", "65.536 um", "+65.536\xB5m", "65536nm"}) {
+    const LoadedImage read = loaded(nanosurf_file({{.range = same}}));
+    EXPECT_NEAR(values(read)[2] / values(usual)[2], 1.0, 1e-9) << same;
+  }
+  EXPECT_THAT(error_of(nanosurf_file({{.range = "3 V"}})),
+              HasSubstr("its \"Dim2Range\" is \"3 V\", which is no number of m"));
+  EXPECT_THAT(error_of(nanosurf_file({{.range = "3 x"}})), HasSubstr("which is no number of m"));
+  EXPECT_THAT(error_of(nanosurf_file({{.save = "SaveBits=16 bit\r\n"}})),
+              HasSubstr("its \"SaveBits\" is \"16 bit\", which is no number"));
+}
+
 TEST(NanosurfImage, HasIntegersOfEverySizeSignAndOrder) {
   const auto first_of = [](const std::string& save, const std::string& numbers) {
     return values(loaded(nanosurf_file({{.range = "1", .lowest = "0", .save = save, .numbers = numbers}})))[3];

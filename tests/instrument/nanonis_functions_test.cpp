@@ -136,6 +136,25 @@ TEST_F(NanonisFunctions, RefuseArgumentsThatAreMissing) {
   }
 }
 
+// Clients look for the error behind results of the usual size here as well.
+TEST_F(NanonisFunctions, ThatAreMissingAreNamedBehindResultsOfTheirSize) {
+  struct Missing {
+    std::string_view name;
+    std::size_t blank;
+  };
+  for (const Missing& missing :
+       {Missing{"Piezo.TiltGet", 8}, Missing{"Signals.RangeGet", 8}, Missing{"TipShaper.PropsGet", 44},
+        Missing{"SafeTip.OnOffGet", 2}, Missing{"Motor.PosGet", 24}, Missing{"Bias.RangeSet", 0}, Missing{"PosGet", 0},
+        Missing{"Of.NoProtocol", 0}}) {
+    const std::string body = body_of(missing.name, ""),
+                      why = fmt::format("TouchAFM does not have the function {}", missing.name);
+    std::string expected;
+    for (std::size_t i = 0; i < missing.blank; ++i) expected += "00 ";
+    EXPECT_EQ(hex_of(body), expected + fmt::format("00 00 00 01 00 00 00 {:02x} ", why.size()) + hex_of(why))
+        << missing.name;
+  }
+}
+
 TEST_F(NanonisFunctions, AreThoseOfThePage) {
   const std::string page = core::read_file(support::source("docs/serve.md")).value();
   const auto named = [&](std::string_view name) {

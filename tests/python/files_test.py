@@ -175,6 +175,16 @@ class Curves(Files):
 class Maps(Files):
     FIELD = {"field": "islands", "second_modulus": 20e3, "pixels": (5, 4), "size": 8e-6, "points": 60, "seed": 3}
 
+    def test_names_modulus_and_work_of_adhesion_as_a_fit_does(self):
+        numbers = {"tip_radius": 1e-6, "spring_constant": 1.0, "most_force": 200e-9, "noise": 20e-12, "points": 100}
+        made, truth = touchafm.generate("jkr", E=1e6, W=5e-2, n=2, **numbers)
+        same, same_truth = touchafm.generate("jkr", modulus=1e6, work_of_adhesion=5e-2, count=2, **numbers)
+        self.assertEqual(truth, same_truth)
+        np.testing.assert_array_equal(made[1].force, same[1].force)
+        for twice in ({"E": 1e6, "modulus": 1e6}, {"E": 1e6, "n": 1, "count": 1}):
+            with self.assertRaisesRegex(ValueError, "leave one out"):
+                touchafm.generate("jkr", W=5e-2, **twice, **numbers)
+
     def test_are_those_of_the_command_for_a_seed(self):
         made, truth = touchafm.generate_map(**self.FIELD, **GEL)
         path = self.folder / "cells.h5"

@@ -38,6 +38,19 @@ class Lever(unittest.TestCase):
         self.assertAlmostEqual(of_file.resonance, RESONANCE, delta=1.0)
         self.assertAlmostEqual(of_file.quality_factor, QUALITY, delta=0.1)
 
+    def test_has_a_shorter_form_for_a_spectrum(self):
+        frequency, density = spectrum()
+        lever = touchafm.lever.thermal(frequency, density, invols=60e-9, temperature=295.0, averages=100)
+        longer = touchafm.lever(thermal=(frequency, density), unit="V", sensitivity=60e-9, temperature=295.0, averages=100)
+        self.assertEqual(lever.as_dict(), longer.as_dict())
+        in_metres = touchafm.lever.thermal(frequency, density * 60e-9**2, temperature=295.0)
+        self.assertAlmostEqual(in_metres.k, lever.k, delta=1e-6 * lever.k)
+        for wrong in ({"sensitivity": 1e-9}, {"unit": "m"}):
+            with self.assertRaisesRegex(ValueError, "invols"):
+                touchafm.lever.thermal(frequency, density, invols=60e-9, **wrong)
+        with self.assertRaises(TypeError):
+            touchafm.lever.thermal(frequency, density, invol=60e-9)
+
     def test_goes_without_a_spectrum(self):
         lever = touchafm.lever(sader=True, length=120e-6, width=30e-6, resonance=70e3, quality_factor=150.0)
         command = json_of("lever", "--sader", "--length", "120um", "--width", "30um", "--resonance", "70kHz",

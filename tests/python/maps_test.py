@@ -55,6 +55,26 @@ class Maps(unittest.TestCase):
         np.testing.assert_array_equal(found.contact_point, channels["Contact height"][0])
         np.testing.assert_array_equal(found.flag == "trusted", channels["Trust"][0] == channels["Trust"][0].max())
 
+    def test_become_images_and_a_table(self):
+        found = touchafm.fit_map([*self.curves[:7], *self.curves[8:]], **FIT)
+        found.image("E").save(self.folder / "E.gwy")
+        image = touchafm.read_image(self.folder / "E.gwy")
+        np.testing.assert_array_equal(image["channels"]["E"][0], found.E)
+        self.assertEqual((image["channels"]["E"][1], image["width"]), ("Pa", found.width))
+        with self.assertRaisesRegex(ValueError, "choose E, contact_point"):
+            found.image("e")
+        found.table.to_csv(self.folder / "map.csv")
+        rows = (self.folder / "map.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(rows), 21)
+        read = [line.split(",") for line in rows[1:]]
+        heads = rows[0].split(",")
+        self.assertEqual(heads[:3], ["row", "column", "E_Pa"])
+        missing = np.isnan(found.E)
+        for row in read:
+            at = int(row[0]), int(row[1])
+            self.assertEqual(float(row[2]) if row[2] else None, None if missing[at] else found.E[at])
+            self.assertEqual(row[heads.index("flag")], found.flag[at])
+
     def test_leave_out_a_curve_that_nothing_fits_and_say_why(self):
         found = touchafm.maps.fit([*self.curves[:7], *self.curves[8:]], **FIT)
         self.assertEqual(np.isnan(found.E).sum(), 1, "a pixel without a curve")

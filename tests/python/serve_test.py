@@ -51,6 +51,14 @@ class Serve(unittest.TestCase):
         np.testing.assert_allclose(forces[:121], cycle.force[down][:121], atol=1e-13)
         self.assertLess(min(forces[121:]), 1.5 * min(forces[:121]))
 
+    def test_connects_to_a_server_of_its_own_without_a_path(self):
+        with serve.connect() as afm:
+            afm.approach()
+            self.assertEqual(afm.scan(lines=3, pixels=4)["Height"].shape, (3, 4))
+            self.assertEqual(afm.get()["lines"], 3)
+            with self.assertRaises(serve.Refused):
+                afm.scan(line=3)
+
     def test_scans_and_saves(self):
         self.afm.set(pixels=16, size_m=np.float64(20e-9))
         self.assertTrue(self.afm.approach()["engaged"])

@@ -31,6 +31,39 @@ class Tapping(unittest.TestCase):
         at = self.tapping(at=17.4 / 1e9)  # as a typed 17.4nm is read
         self.assertEqual(without_sources(at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "17.4nm")))
 
+    def test_takes_a_drive_in_place_of_its_numbers(self):
+        drive = touchafm.Drive(free_amplitude=20e-9, resonance=300e3, quality_factor=400.0, contact_gap=0.165e-9)
+        self.assertEqual((drive.free_amplitude, drive.frequency), (20e-9, None))
+        tapping = touchafm.tapping(self.contact(), drive)
+        self.assertEqual(tapping.as_dict(), self.tapping().as_dict())
+        self.assertEqual(tapping.folds, tapping.as_dict()["jumps"])
+        self.assertEqual(len(tapping.folds), 2)
+        at = self.tapping(at=17.4e-9)
+        self.assertEqual(tapping.states(17.4e-9), at.as_dict()["states"])
+        self.assertEqual(at.folds, tapping.folds)
+        fast = tapping.curve(speed=1e-6)
+        self.assertEqual(fast.as_dict(), self.tapping(speed=1e-6).as_dict())
+        self.assertEqual(fast.folds, tapping.folds)
+        self.assertNotEqual(fast.as_dict()["jumps"], tapping.folds)
+        self.assertEqual(len(tapping.curve(z_from=20e-9, z_to=18e-9, step=1e-9)), 5)
+
+    def test_refuses_numbers_that_a_drive_has_too_and_none_at_all(self):
+        drive = touchafm.Drive(free_amplitude=20e-9, frequency=310e3)
+        for given in ({"free_amplitude": 1e-9}, {}):
+            with self.assertRaisesRegex(ValueError, "free_amplitude"):
+                touchafm.tapping(self.contact(), *((drive,) if given else ()), **given)
+        mica = touchafm.Contact.material("mica")
+        with self.assertRaisesRegex(ValueError, "free_amplitude"):
+            touchafm.scan(mica, pixels=4, mode="tapping", drive=drive, free_amplitude=1e-9)
+
+    def test_takes_an_image_by_a_drive(self):
+        gold = touchafm.Contact.material("gold", spring_constant=40.0)
+        numbers = {"free_amplitude": 20e-9, "resonance": 300e3, "quality_factor": 400.0}
+        image = touchafm.scan(gold, size=20e-9, pixels=8, mode="tapping", drive=touchafm.Drive(**numbers, frequency=301e3))
+        same = touchafm.scan(gold, size=20e-9, pixels=8, mode="tapping", drive=301e3, **numbers)
+        np.testing.assert_array_equal(image["Phase"], same["Phase"])
+        self.assertEqual(image.as_dict(), same.as_dict())
+
     def test_refuses_what_has_no_effect(self):
         with self.assertRaises(ValueError):
             self.tapping(at=17.4e-9, z_from=1e-8)

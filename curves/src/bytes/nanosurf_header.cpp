@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "bytes/file_bytes.h"
+#include "bytes/scaled_unit.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
 
@@ -68,7 +69,20 @@ std::optional<double> NanosurfSection::number(std::string_view key) const {
   if (!found) return std::nullopt;
   if (has_decimal_comma(*found)) throw CurveError(decimal_comma_in(fmt::format("its \"{}\"", key), *found));
   std::string_view rest = *found;
-  return take_decimal(rest);
+  const auto number = take_decimal(rest);
+  rest = trimmed(rest);
+  if (!number || rest.empty()) return number;
+  // "Dim2Range=1.25 um", which other programs write, in the "Dim2Unit"
+  constexpr std::size_t kDimension = 4;
+  const bool of_dimension = key.starts_with("Dim") && key.size() > kDimension;
+  const ScaledUnit unit =
+      scaled_unit(of_dimension ? text(fmt::format("{}Unit", key.substr(0, kDimension))).value_or("") : "");
+  const ScaledUnit written = scaled_unit(rest);
+  if (!of_dimension || written.unit != unit.unit) {
+    throw CurveError(fmt::format("its \"{}\" is \"{}\", which is no number{}", key, found->substr(0, 40),
+                                 unit.unit.empty() ? "" : fmt::format(" of {}", unit.unit)));
+  }
+  return *number * written.factor / unit.factor;
 }
 
 double NanosurfSection::needed(std::string_view key) const {

@@ -124,7 +124,8 @@ class TableReader {
       return;
     }
     if (padding_ > 0) {
-      throw CurveError(fmt::format("line {} has numbers, and the {} lines before it have none", number, padding_));
+      throw CurveError(fmt::format("line {} has numbers, and the {} before it none", number,
+                                   padding_ == 1 ? "line" : fmt::format("{} lines", padding_)));
     }
     if (bad < columns_.size() && bad >= fields_.size()) {
       throw CurveError(
@@ -160,7 +161,9 @@ class TableReader {
   // Call after the last line.
   void finish() {
     leave_out_counts();
-    if (padding_ > 0) remarks_.push_back(fmt::format("its last {} lines have no numbers: they are left out", padding_));
+    if (padding_ > 0)
+      remarks_.push_back(fmt::format("no numbers at its end: the last {} left out",
+                                     padding_ == 1 ? "line is" : fmt::format("{} lines are", padding_)));
     if (more_fields_at_ == 0) return;
     // "0,5,1,2" has two numbers with decimal commas, or four
     if (separator_ != ',' || points_) {

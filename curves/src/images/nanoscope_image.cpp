@@ -61,6 +61,19 @@ std::string_view data_of(std::string_view bytes, const NanoscopeBlock& image, co
   return part(data, alone ? 0 : captured.first * line, captured.count * line);
 }
 
+// Bytes behind the data of an image that no block of the header has.
+std::size_t bytes_behind(std::string_view bytes, const NanoscopeBlock& image,
+                         const std::vector<NanoscopeBlock>& blocks) {
+  const auto end = static_cast<double>(nanoscope_data_offset(image, bytes)) + nanoscope_number(image, "data length");
+  auto next = static_cast<double>(bytes.size());
+  for (const NanoscopeBlock& block : blocks) {
+    if (block.find("data offset") == nullptr) continue;
+    const double offset = nanoscope_number(block, "data offset");
+    if (offset >= end) next = std::min(next, offset);
+  }
+  return next > end ? static_cast<std::size_t>(next - end) : 0;
+}
+
 ImagePage nanoscope_page(std::string_view bytes, const NanoscopeBlock& image, const std::vector<NanoscopeBlock>& blocks,
                          ImagePages& found) {
   const NanoscopeIntegers integers = nanoscope_integers(image, blocks);
@@ -79,6 +92,11 @@ ImagePage nanoscope_page(std::string_view bytes, const NanoscopeBlock& image, co
   if (captured.count < points.rows) {
     found.remark(
         fmt::format("{} of {} lines were captured; the others count as not measured", captured.count, points.rows));
+  }
+  if (const std::size_t behind = bytes_behind(bytes, image, blocks); behind >= data.size() && !data.empty()) {
+    found.remark(fmt::format(
+        "behind the {} x {} points of {} lie {} bytes that the header does not mention: does it have all points?",
+        points.columns, points.rows, nanoscope_name(image), behind));
   }
   const double factor = scale.factor / integers.divisor;
   return {.name = nanoscope_name(image),

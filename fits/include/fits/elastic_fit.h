@@ -63,6 +63,7 @@ enum class Doubt {
   FewPoints,
   Shallow,
   Adhesive,
+  BeyondTip,
   BeyondLayer,
   NotLevel,
   NotRandom,
@@ -84,7 +85,7 @@ struct DoubtRow {
   double limit;
   std::string_view name;  // name of the doubt with its figure, in reports
 };
-extern const std::array<DoubtRow, 16> kDoubts;
+extern const std::array<DoubtRow, 17> kDoubts;
 
 const DoubtRow& row_of(Doubt doubt);
 
