@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "exhibit/words/controls.h"
@@ -25,6 +26,9 @@ enum class Hint {
   LetGo,
   GoBeside,
   PushAside,
+  TakeSwing,
+  GiveSwing,
+  SwingsFree,
   PressToGoOn,
   ServoEnded
 };
@@ -33,14 +37,16 @@ enum class Hint {
 struct StepsDone {
   bool ascending = false;  // direction of the hand's last motion
   bool pressed = false;    // below Z = 0 since the tip touched
-  bool let_go = false;     // since the force was switched on
+  bool let_go = false;     // since the force was switched on; of a lever that taps: free again after the sample's take
+  std::optional<bool> swing_taken{};  // by the sample, and not yet given back; none without tapping
 };
 
 // Progress counted by CycleHistory.
 struct CycleProgress {
   bool ascending = false;
   bool pressed = false;
-  int cycles = 0;  // number on the sample under the tip
+  int cycles = 0;                       // number on the sample under the tip
+  std::optional<double> swing_share{};  // amplitude in free amplitudes; none without tapping
 };
 
 // True if the hand has the scale on which the tip pushes particles, where a cycle of approach and retract is no goal.
