@@ -215,6 +215,8 @@ exhibit::Moment Demonstration::moment(const input::WandState& wand, const input:
 
 exhibit::Hint Demonstration::hint() const {
   using Step = input::SimulatedPerson::Step;
+  const std::int32_t material = servo_.tip().material;
+  const bool taps = material >= 0 && plan_.materials[static_cast<std::size_t>(material)].taps();
   switch (person_.step()) {
     case Step::PointAtSwatch:
     case Step::PressSelect:
@@ -224,14 +226,14 @@ exhibit::Hint Demonstration::hint() const {
     case Step::PressTurnOn:
       return exhibit::Hint::TurnOn;
     case Step::MoveDown:
-      return exhibit::Hint::MoveDown;
+      return taps ? exhibit::Hint::TakeSwing : exhibit::Hint::MoveDown;
     case Step::MoveUp:
-      return exhibit::Hint::MoveUp;
+      return taps ? exhibit::Hint::GiveSwing : exhibit::Hint::MoveUp;
     case Step::Rest:
     case Step::Done:
       break;
   }
-  return exhibit::Hint::LetGo;
+  return taps ? exhibit::Hint::SwingsFree : exhibit::Hint::LetGo;
 }
 
 }  // namespace afm::app

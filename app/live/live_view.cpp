@@ -133,7 +133,13 @@ exhibit::Hint LiveView::next_hint(std::int64_t now_ns) {
   const exhibit::CycleHistory& cycles = parts_.servo.cycles();
   // the sample's pull jerks the rising hand down, which is not a new approach
   const bool ascending = cycles.ascending() || (cycles.pressed() && tip.tip.z_m > 0.0);
-  return procedure_.update(tip, {ascending, cycles.pressed(), cycles.cycles()}, now_ns);
+  exhibit::CycleProgress progress{ascending, cycles.pressed(), cycles.cycles()};
+  if (tip.material >= 0) {
+    const curves::SampleModel& model = parts_.panels.edits().of(static_cast<std::size_t>(tip.material)).model();
+    const double free_m = model.parameters.free_amplitude_m;
+    if (model.taps()) progress.swing_share = tip.swing.amplitude_m / free_m;
+  }
+  return procedure_.update(tip, progress, now_ns);
 }
 
 exhibit::Moment LiveView::moment(ViewFrame& frame) {

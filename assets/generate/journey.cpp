@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "journey_apex.h"
 #include "models.h"
 #include "probe_parts.h"
 
@@ -9,7 +10,6 @@ constexpr double kMm = 1e-3, kUm = 1e-6, kNm = 1e-9;
 
 // The tip rests this far above the sample.
 constexpr double kGap = 0.6 * kNm;
-constexpr double kAtomShell = 0.1 * kNm;  // distance between the ball and the lowest of its atoms
 
 MaterialSpec wood() { return {.name = "bench", .base_color = {0.19, 0.115, 0.065}, .roughness = 0.42}; }
 MaterialSpec granite() { return {.name = "granite", .base_color = {0.045, 0.047, 0.052}, .roughness = 0.22}; }
@@ -77,7 +77,7 @@ Placement lever_placement() {
   const V3 along = unit(V3{0.40, -0.89, -0.19});
   const V3 across = unit(cross({0, 0, 1}, along));
   const V3 up = cross(along, across);
-  const V3 end{0, 0, kGap + kAtomShell + tip_length() - 0.5 * kUm};  // the tip's base reaches into the lever
+  const V3 end{0, 0, kGap + atom_shell() + tip_length() - 0.5 * kUm};  // the tip's base reaches into the lever
   return {end - along * lever_tip_x(), along, across, up};
 }
 
@@ -116,36 +116,11 @@ std::vector<Part> holder() {
   return placed({{std::move(body), ceramic()}, {std::move(clip), steel()}}, lever_placement());
 }
 
-// The last nanometres of the tip: atoms on the ball, silicon and nitrogen, that sink into it with their distance.
-std::vector<Part> tip_atoms() {
-  constexpr double kSpacing = 0.30 * kNm, kRadius = 0.17 * kNm, kReach = 2.2 * kNm;
-  Surface surface;
-  for (std::int64_t row = -10; row <= 10; ++row) {
-    for (std::int64_t column = -10; column <= 10; ++column) {
-      const double shift = row % 2 != 0 ? 0.5 : 0.0;
-      const double x = (static_cast<double>(column) + shift + 0.25 * (random_unit(column, row, 81) - 0.5)) * kSpacing;
-      const double y =
-          (static_cast<double>(row) * std::sqrt(0.75) + 0.25 * (random_unit(column, row, 82) - 0.5)) * kSpacing;
-      const double r2 = x * x + y * y;
-      if (r2 > kReach * kReach) continue;
-      const double rise = r2 / (2 * tip_radius()) + kAtomShell * smooth_step(0.3, 1, std::sqrt(r2) / kReach);
-      const bool nitrogen = random_unit(column, row, 83) > 0.45;
-      const double radius = nitrogen ? 0.85 * kRadius : kRadius;
-      add_atom(surface, {x, y, kGap + rise + radius}, radius, Facing::Down,
-               nitrogen ? V3{0.16, 0.28, 0.75} : V3{0.80, 0.66, 0.42}, {.around = 2, .rings = 3});
-    }
-  }
-  return {{std::move(surface), {.name = "tip atoms", .roughness = 0.35, .vertex_colors = true}}};
-}
-
 }  // namespace
 
 Model journey() {
   Model model{"journey", {}};
-  const Placement above{{0, 0, kGap + kAtomShell}};
-  Surface sides, apex;
-  add_placed(sides, tip_sides(), above);
-  add_placed(apex, tip_apex(), above);
+  const Placement above{{0, 0, kGap + atom_shell()}};
   model.nodes.push_back({.name = "journey", .placement = kYUpFromZUp});
   const auto add = [&](const char* name, std::vector<Part> parts) {
     model.nodes.push_back({.name = name, .parent = 0, .parts = std::move(parts)});
@@ -155,12 +130,9 @@ Model journey() {
   add("holder", holder());
   add("chip", chip());
   add("lever", placed(cantilever(), lever_placement()));
-  add("tip", {{std::move(sides), nitride()}});
-  MaterialSpec dull = nitride();  // seen from so near, no lamp is reflected in it
-  dull.name = "apex";
-  dull.roughness = 0.75;
-  add("apex", {{std::move(apex), dull}});
-  add("tip-atoms", tip_atoms());
+  add("tip", placed({{tip_sides(apex_shares()), nitride()}}, above));
+  add("apex", placed(apex(), above));
+  add("tip-atoms", placed(apex_atoms(), {{0, 0, kGap}}));
   return model;
 }
 

@@ -123,7 +123,7 @@ double apex_height() { return tip_shape().center.z - kApexRadius; }
 
 // The flat faces, the rounded edges between them, and the base; `shares` are the edges' stations from one face to the
 // next.
-Surface tip_sides(const std::vector<double>& shares) {
+Surface sides_of_tip(const std::vector<double>& shares) {
   const TipShape shape = tip_shape();
   Surface surface;
 
@@ -162,14 +162,17 @@ Surface tip_sides(const std::vector<double>& shares) {
   return surface;
 }
 
+V3 normal_of_cap(const TipShape& shape, double u, double v) {
+  return unit(
+      mix(mix(shape.face_normal[0], shape.face_normal[3], u), mix(shape.face_normal[1], shape.face_normal[2], u), v));
+}
+
 // A square of great arcs between the four faces.
 Surface tip_cap(const std::vector<double>& shares) {
   const TipShape shape = tip_shape();
   Surface surface;
   surface.add_grid(shares.size(), shares.size(), [&](std::size_t row, std::size_t column) {
-    const double u = shares[column], v = shares[row];
-    const V3 normal = unit(
-        mix(mix(shape.face_normal[0], shape.face_normal[3], u), mix(shape.face_normal[1], shape.face_normal[2], u), v));
+    const V3 normal = normal_of_cap(shape, shares[column], shares[row]);
     return SurfaceVertex{shape.center + normal * kApexRadius, normal};
   });
   return surface;
@@ -182,22 +185,8 @@ std::vector<double> even_shares() {
   return shares;
 }
 
-// From the middle outwards in growing steps, so that the lowest point looks round from very close.
-std::vector<double> fine_shares() {
-  constexpr double kFirst = 0.0004, kGrowth = 1.35, kLargest = 0.04;
-  std::vector<double> half{0};
-  for (double step = kFirst; half.back() + step < 0.5; step = std::min(step * kGrowth, kLargest)) {
-    half.push_back(half.back() + step);
-  }
-  half.back() = 0.5;
-  std::vector<double> shares;
-  for (std::size_t i = half.size(); i-- > 1;) shares.push_back(0.5 - half[i]);
-  for (const double away : half) shares.push_back(0.5 + away);
-  return shares;
-}
-
 Surface tip_surface() {
-  Surface surface = tip_sides(even_shares());
+  Surface surface = sides_of_tip(even_shares());
   add_placed(surface, tip_cap(even_shares()), {});
   return surface;
 }
@@ -273,8 +262,8 @@ std::vector<Part> cantilever() {
 
 double lever_tip_x() { return kTipX; }
 double lever_thickness() { return kDrawnThickness; }
-Surface tip_sides() { return from_apex(tip_sides(fine_shares())); }
-Surface tip_apex() { return from_apex(tip_cap(fine_shares())); }
+Surface tip_sides(const std::vector<double>& shares) { return from_apex(sides_of_tip(shares)); }
+V3 cap_normal(double u, double v) { return normal_of_cap(tip_shape(), u, v); }
 double tip_length() { return -apex_height(); }
 double tip_radius() { return kApexRadius; }
 

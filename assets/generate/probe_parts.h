@@ -13,9 +13,11 @@ std::vector<Part> cantilever();
 double lever_tip_x();
 double lever_thickness();  // thickness as drawn
 
-// Tip with its lowest point at the origin: the pyramid's faces and edges, and the ball's cap, finest at the origin.
-Surface tip_sides();
-Surface tip_apex();
+// Tip with its lowest point at the origin: the pyramid's faces and its edges, whose stations from one face to the next
+// are `shares`.
+Surface tip_sides(const std::vector<double>& shares);
+// Normal on the ball's cap between the faces, at shares 0 to 1 along two of its edges; 0.5, 0.5 is its lowest point.
+V3 cap_normal(double u, double v);
 double tip_length();  // from the apex to the base
 double tip_radius();  // radius of the ball
 

@@ -73,9 +73,11 @@ Model swatch(std::string name, Surface sample, MaterialSpec material, Surface ou
   return model;
 }
 
+// All are low, so that the sample's front edge is seen above them.
+
 // A book of mica: irregular six-sided flakes, each turned a little against the one below.
 Model mica() {
-  constexpr int kFlakes = 13;
+  constexpr int kFlakes = 4;
   constexpr double kFlake = 0.78 * kCm, kPitch = 1.02 * kCm;
   constexpr double kHalf = 0.5;
   const double c = std::sqrt(0.75);
@@ -85,7 +87,7 @@ Model mica() {
     const auto random = [&](int what) { return random_unit(flake, what, 61); };
     std::vector<V2> corners;
     corners.reserve(6);
-    for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((8.2 + 2.2 * random(k) - 0.11 * flake) * kCm));
+    for (int k = 0; k < 6; ++k) corners.push_back(hexagon[k] * ((8.2 + 2.2 * random(k) - 0.35 * flake) * kCm));
     const Outline around = rounded_polygon(corners, 0.6 * kCm, 0);
     Surface prism;
     add_prism(prism, around, 0, kFlake, 0.14 * kCm);
@@ -108,7 +110,7 @@ Model mica() {
                 std::move(outline));
 }
 
-constexpr double kBarHeight = 5.4 * kCm, kBarLean = 1.3 * kCm, kBarRound = 0.6 * kCm;
+constexpr double kBarHeight = 4.4 * kCm, kBarLean = 1.3 * kCm, kBarRound = 0.6 * kCm;
 constexpr V2 kBarHalf{11 * kCm, 3.6 * kCm};
 
 Outline bar_outline(double in, int halvings) {
@@ -136,15 +138,13 @@ Surface ingot() {
   return bar;
 }
 
-// Two bars and a third across them.
+// Two bars beside each other.
 Model gold() {
   Surface pile, outline;
   const Surface bar = ingot();
   const Surface around = outline_of(bar_outline(0, 0), 0, bar_outline(kBarLean, 0), kBarHeight, kOutline);
-  const V3 along{0.96, 0, -0.28};  // direction turned by 16 degrees
-  for (const Placement& placement :
-       {upright(0, kPlinthHeight, kTopMiddle - 3.9 * kCm), upright(0, kPlinthHeight, kTopMiddle + 3.9 * kCm),
-        Placement{{0, kPlinthHeight + kBarHeight, kTopMiddle}, along, {-0.28, 0, -0.96}, {0, 1, 0}}}) {
+  for (const Placement& placement : {upright(0.6 * kCm, kPlinthHeight, kTopMiddle - 3.9 * kCm),
+                                     upright(-0.6 * kCm, kPlinthHeight, kTopMiddle + 3.9 * kCm)}) {
     add_placed(pile, bar, placement);
     add_placed(outline, around, placement);
   }
@@ -170,15 +170,13 @@ Outline disc_with_flat(double radius, double flat, double fillet, int halvings) 
   return outline;
 }
 
-// A polished disc with the flat that marks its orientation, leaning back in a slotted foot.
+// A polished disc with the flat that marks its orientation, leaning back on a foot.
 Model silicon_nitride() {
   constexpr double kRadius = 8.8 * kCm, kFlat = 8.2 * kCm, kThickness = 1.3 * kCm;
   Surface wafer, group, outline;
   add_prism(wafer, disc_with_flat(kRadius, kFlat, 1.0 * kCm, 4), -kThickness / 2, kThickness / 2, 0.25 * kCm);
-  const Placement leaning{{0, kPlinthHeight + 0.9 * kCm + kFlat * 0.96, kTopMiddle - kFlat * 0.28},
-                          {1, 0, 0},
-                          {0, 0.96, -0.28},
-                          {0, 0.28, 0.96}};
+  const Placement leaning{
+      {0, kPlinthHeight + 0.7 * kCm + kFlat * 0.28, kTopMiddle}, {1, 0, 0}, {0, 0.28, -0.96}, {0, 0.96, 0.28}};
   const Outline around = disc_with_flat(kRadius, kFlat, 1.0 * kCm, 3);
   add_placed(group, wafer, leaning);
   add_placed(outline, outline_of(around, -kThickness / 2, around, kThickness / 2, kOutline), leaning);
@@ -190,7 +188,7 @@ Model silicon_nitride() {
              {.name = "silicon nitride", .base_color = {0.085, 0.100, 0.130}, .metallic = 0.1, .roughness = 0.12},
              std::move(outline));
   Surface stand;
-  add_placed(stand, foot, upright(0, kPlinthHeight, kTopMiddle));
+  add_placed(stand, foot, upright(0, kPlinthHeight, kTopMiddle - 2 * kCm));
   model.nodes.front().parts.push_back(
       {std::move(stand), {.name = "stand", .base_color = {0.45, 0.46, 0.48}, .metallic = 1, .roughness = 0.35}});
   return model;

@@ -57,6 +57,15 @@ TEST(Guidance, LeadsThroughTheProcedureByWhatHasHappened) {
   EXPECT_EQ(next_step(pushing, {.pressed = true}), Hint::PushAside);
 }
 
+TEST(Guidance, NamesNeitherSnapInNorPullOffWhileTheLeverTaps) {
+  for (const physics::Phase phase : {physics::Phase::Free, physics::Phase::Attached}) {
+    const scene::TipState tapping = tip(scene::ServoState::Running, phase, 0.040);
+    EXPECT_EQ(next_step(tapping, {.swing_taken = false}), Hint::TakeSwing);
+    EXPECT_EQ(next_step(tapping, {.pressed = true, .swing_taken = true}), Hint::GiveSwing);
+    EXPECT_EQ(next_step(tapping, {.ascending = true, .let_go = true, .swing_taken = false}), Hint::SwingsFree);
+  }
+}
+
 TEST(Guidance, AsksToPressBeforeItAsksToMoveUpHoweverTheHandTrembles) {
   const scene::TipState snapped = tip(scene::ServoState::Running, physics::Phase::Attached, 0.005);
   EXPECT_EQ(next_step(snapped, {.ascending = true}), Hint::PressOn);
@@ -93,7 +102,8 @@ TEST(Guidance, NamesTheControlsInEveryLanguageThatWeShip) {
       }
       const bool has_control = hint == Hint::Lift || hint == Hint::TurnOn || hint == Hint::TurnOnAndHold ||
                                hint == Hint::MoveDown || hint == Hint::Pressed || hint == Hint::MoveUp ||
-                               hint == Hint::GoBeside || hint == Hint::PushAside || hint == Hint::PressToGoOn;
+                               hint == Hint::GoBeside || hint == Hint::PushAside || hint == Hint::TakeSwing ||
+                               hint == Hint::GiveSwing || hint == Hint::PressToGoOn;
       EXPECT_EQ(texts.size(), has_control ? core::kEnumerators<HandControls>.size() : 1) << file.path();
     }
   }

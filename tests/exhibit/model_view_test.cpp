@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "exhibit/models/particle_models.h"
 #include "exhibit/models/user_models.h"
 #include "scene/gltf/loading_notice.h"
 #include "scene/graph/height_field.h"
@@ -219,6 +220,31 @@ TEST_F(OwnModel, BecomesASampleThatIsFeltAsItIsDrawn) {
   const auto large = load_own_models("", write(R"("nodes": [{"name": "surface", "mesh": 0}])"));
   ASSERT_TRUE(large) << large.error().message;
   EXPECT_NEAR(large->sample->meshes[0].primitives[0].vertices.at(2).position.x, 60e-9, 1e-14);
+}
+
+// Whatever is a sample has the dark line of the assets' samples: a file's, and the plane below particles.
+TEST_F(OwnModel, HasAnOutlineAsASample) {
+  const auto own =
+      load_own_models("", write(R"("nodes": [{"name": "surface", "mesh": 0, "scale": [4e-8, 4e-8, 4e-8]}])"));
+  ASSERT_TRUE(own) << own.error().message;
+  for (const scene::Scene& sample : {*own->sample, with_outline(particle_ground(40e-9))}) {
+    ASSERT_EQ(sample.nodes.size(), 2U);
+    EXPECT_EQ(sample.nodes[1].name, "outline");
+    const scene::Bounds body = bounds_below(sample, 0), around = bounds_below(sample, 1);
+    EXPECT_LT(around.low.x, body.low.x);
+    EXPECT_LT(around.low.y, body.low.y);
+    EXPECT_GT(around.high.x, body.high.x);
+    EXPECT_GT(around.high.z, body.high.z);
+    EXPECT_LT(around.high.z - body.high.z, 0.004 * (body.high.x - body.low.x)) << "a thin line";
+    const scene::Primitive& line = sample.meshes[*sample.nodes[1].mesh].primitives.at(0);
+    EXPECT_TRUE(sample.materials[line.material].unlit);
+    const glm::vec3 middle = 0.5F * glm::vec3(body.low + body.high);
+    for (std::size_t i = 0; i + 2 < line.indices.size(); i += 3) {
+      const auto corner = [&](std::size_t k) { return line.vertices[line.indices[i + k]].position; };
+      const glm::vec3 front = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+      EXPECT_GT(glm::dot(front * 1e16F, (middle - corner(0)) * 1e8F), 0.0F) << "seen from outside";
+    }
+  }
 }
 
 TEST_F(OwnModel, SaysThatItsAnimationsAreNotPlayedOnTheWall) {

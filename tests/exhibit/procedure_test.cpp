@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -86,6 +87,30 @@ TEST_F(ProcedureTest, TheOrderIsThatOfTheProcedure) {
   const std::vector<Hint> order{Hint::MoveDown, Hint::PressOn, Hint::Pressed, Hint::MoveUp, Hint::LetGo};
   ASSERT_GE(shown_.size(), order.size());
   for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(shown_[i].hint, order[i]) << i;
+}
+
+// Down until the sample has the whole swing, without a repulsive state, and up again, as with a small free amplitude.
+TEST_F(ProcedureTest, ALeverThatTapsGivesItsSwingAndTakesItBack) {
+  for (const double seconds : {2.0, 30.0}) {
+    procedure_ = {};
+    progress_ = {};
+    shown_.clear();
+    const auto frames = static_cast<int>(seconds / (1e-9 * kFrameNs));
+    for (int i = 0; i <= frames; ++i) {
+      const double way = 2.0 * i / frames;
+      progress_.swing_share = std::min(1.0, 1.1 * std::abs(1.0 - way));
+      progress_.ascending = way > 1.0;
+      frame(State::Running, Phase::Free, 1.4 * kReleaseM * std::abs(1.0 - way));
+    }
+    stay(State::Running, Phase::Free, 1.4 * kReleaseM, 20.0);
+    std::vector<Hint> hints;
+    for (const Shown& shown : shown_) hints.push_back(shown.hint);
+    EXPECT_EQ(std::count(hints.begin(), hints.end(), Hint::SwingsFree), 1) << seconds;
+    EXPECT_EQ(hints.front(), Hint::TakeSwing) << seconds;
+    if (seconds > 10.0) {
+      EXPECT_EQ(hints, (std::vector<Hint>{Hint::TakeSwing, Hint::GiveSwing, Hint::SwingsFree})) << seconds;
+    }
+  }
 }
 
 TEST_F(ProcedureTest, WhatHappensToTheForceIsSaidAtOnce) {

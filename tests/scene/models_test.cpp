@@ -85,7 +85,7 @@ TEST(Models, AreWhatTheGeneratorWrites) {
 TEST(Models, TakeLittleRoom) {
   std::uintmax_t total = 0;
   for (const fs::directory_entry& entry : fs::directory_iterator(models_folder())) total += entry.file_size();
-  EXPECT_LT(total, 20U << 20U);  // two thirds of it the atoms of three samples, up to the horizon
+  EXPECT_LT(total, 22U << 20U);  // mostly the atoms of three samples, up to the horizon, and of the tip
 }
 
 // Features that change faster than the mesh of the ground had saw teeth before the viewer, who is at negative y.
@@ -302,6 +302,39 @@ TEST(Swatches, HaveAnOutlineOfHalfToThreeMillimetres) {
       EXPECT_LT(beyond_m, 0.003) << name;
     }
     EXPECT_TRUE(scene.materials.at(outline.material).unlit) << name;
+  }
+}
+
+TEST(Swatches, AreSoLowThatTheFrontOfTheSampleIsSeenAboveThem) {
+  for (const char* name : {"swatch-mica", "swatch-gold", "swatch-si3n4"}) {
+    const Scene scene = load(name);
+    for (const glm::dvec3& place : positions_of(mesh_of(scene, "swatch"))) ASSERT_LT(place.y, 0.15) << name;
+  }
+}
+
+// The tip's end is a ball of 50 nm with clusters that lie within it, as wide as a part of their distance from the apex.
+TEST(JourneyApex, HasClustersThatFaceOut) {
+  const Scene scene = load("journey");
+  for (const Primitive& primitive : mesh_of(scene, "apex").primitives) {
+    double lowest = 1;
+    for (const Vertex& vertex : primitive.vertices) lowest = std::min(lowest, static_cast<double>(vertex.position.z));
+    const glm::dvec3 center(0, 0, lowest + 50e-9);
+    std::map<int, double> deepest;  // by distance from the lowest place, in steps of 10 nm
+    for (const Vertex& vertex : primitive.vertices) {
+      const glm::dvec3 place(vertex.position);
+      const double depth = 50e-9 - glm::distance(place, center);
+      ASSERT_GT(depth, -1e-13);
+      double& most = deepest[static_cast<int>(glm::distance(place, {0, 0, lowest}) / 10e-9)];
+      most = std::max(most, depth);
+    }
+    EXPECT_GT(deepest[1], 0.3e-9);
+    EXPECT_GT(deepest[2], deepest[1]);
+    for (std::size_t i = 0; i < primitive.indices.size(); i += 3) {
+      glm::dvec3 corner[3];
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = primitive.vertices[primitive.indices[i + k]].position;
+      const glm::dvec3 front = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+      ASSERT_GT(glm::dot(glm::normalize(front), glm::normalize(corner[0] - center)), -0.2) << "wound inwards";
+    }
   }
 }
 

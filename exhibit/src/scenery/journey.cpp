@@ -31,6 +31,8 @@ constexpr double kMapToOrders = 4.25, kConeFromOrders = 4.85;
 // point fill the view: farther ones are drawn with few corners (assets/generate/journey_ground.cpp).
 constexpr double kAtomsRange = 0.3, kAtomsAtOrders = 8.5, kAtomsAtLast = 8.95, kAtomsReachM = 6.45e-9;
 constexpr double kAtomsHiddenM = 0.36e-9;
+// Those of the tip, from the scale at which one is as wide as two pixels.
+constexpr double kTipAtomsAtOrders = 7.6;
 
 // Light among the atoms, where everything is in the tip's shade.
 constexpr double kLightFromOrders = 7.5, kShadeOfAtoms = 0.55;
@@ -126,6 +128,7 @@ void Journey::measure_tip(const scene::Scene& scene, ModelBuilder& build) {
     for_each_place(scene, frame_, build.node(node), [&](const dvec3& place) { low = std::min(low, place.z); });
     return low;
   };
+  tip_atoms_ = build.node("journey/tip-atoms");
   tip_.gap_m = lowest("journey/tip-atoms");
   // a ball about the axis goes through the lowest place of the apex and through its widest
   glm::dvec2 low(0.0, std::numeric_limits<double>::infinity()), wide(0.0);
@@ -155,6 +158,8 @@ void Journey::place(double orders, std::vector<dmat4>& local) const {
   for (const scene::NodeIndex atoms : ground_atoms_) {
     local[atoms] = glm::translate(local[atoms], dvec3(0.0, 0.0, -kAtomsHiddenM * (1.0 - risen)));
   }
+  const double out = eased((orders - kTipAtomsAtOrders + kAtomsRange) / kAtomsRange);
+  local[tip_atoms_] = glm::translate(local[tip_atoms_], dvec3(0.0, 0.0, kAtomsHiddenM * (1.0 - out)));
 }
 
 bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) const {
@@ -162,6 +167,7 @@ bool Journey::shows(scene::NodeIndex node, double orders, std::size_t ground) co
   if (part == parts_.end() || part->ground.value_or(ground) != ground) return false;
   const bool of_ground = std::find(ground_atoms_.begin(), ground_atoms_.end(), node) != ground_atoms_.end();
   if (of_ground && orders <= atoms_at_orders_ - kAtomsRange) return false;
+  if (node == tip_atoms_ && orders <= kTipAtomsAtOrders - kAtomsRange) return false;
   const double scale = scale_of(orders);
   return part->nearest_m * scale < kBeyondFog && part->farthest_m * scale > kBelowPixel;
 }

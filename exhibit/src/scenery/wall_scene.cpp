@@ -79,7 +79,7 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
     add_topography(build, sample, own, look);
   } else if (own.particles) {
     // the plane on which the servo pushes them
-    look.sample = build.part(particle_ground(kNarrowestSample * look.stroke_m), sample, sample_frame_);
+    look.sample = build.part(with_outline(particle_ground(kNarrowestSample * look.stroke_m)), sample, sample_frame_);
     look.height_field = scene::kNoHeightField;
     look.thickness_m = build.error() ? 0.0 : -bounds_below(scene_, look.sample).low.z;
   } else {

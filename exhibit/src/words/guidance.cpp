@@ -37,6 +37,12 @@ Hint step_among_particles(const scene::TipState& tip) {
   return tip.phase == physics::Phase::Attached ? Hint::PushAside : Hint::GoBeside;
 }
 
+// Steps with force of a lever that taps: it neither snaps in nor pulls off.
+Hint step_with_swing(const StepsDone& done) {
+  if (*done.swing_taken) return Hint::GiveSwing;
+  return done.let_go && done.ascending ? Hint::SwingsFree : Hint::TakeSwing;
+}
+
 // Step from the steps done instead of the hand's direction, which reverses with every tremor.
 Hint step_with_force(const scene::TipState& tip, const StepsDone& done) {
   if (tip.phase == physics::Phase::Attached) {
@@ -61,7 +67,8 @@ Hint next_step(const scene::TipState& tip, const StepsDone& done) {
       return Hint::PressToGoOn;
     case scene::ServoState::Running:
       if (tip.phase == physics::Phase::WaitForLift) break;
-      return pushes_particles(tip) ? step_among_particles(tip) : step_with_force(tip, done);
+      if (pushes_particles(tip)) return step_among_particles(tip);
+      return done.swing_taken ? step_with_swing(done) : step_with_force(tip, done);
     case scene::ServoState::Disarmed:
       if (is_lifted(tip)) return tip.dead_man != 0 ? Hint::TurnOnAndHold : Hint::TurnOn;
       break;

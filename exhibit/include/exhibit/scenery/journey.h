@@ -90,6 +90,7 @@ class Journey {
   Tip tip_;
   std::vector<Part> parts_;
   std::vector<scene::NodeIndex> atoms_, ground_atoms_;  // atoms with an outline, and atoms of the samples
+  scene::NodeIndex tip_atoms_ = 0;
   std::vector<std::string> grounds_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "exhibit/words/controls.h"
@@ -25,6 +26,9 @@ enum class Hint {
   LetGo,
   GoBeside,
   PushAside,
+  TakeSwing,
+  GiveSwing,
+  SwingsFree,
   PressToGoOn,
   ServoEnded
 };
@@ -33,14 +37,16 @@ enum class Hint {
 struct StepsDone {
   bool ascending = false;  // direction of the hand's last motion
   bool pressed = false;    // true: below Z = 0 at some time since the tip touched
-  bool let_go = false;     // true: pull-off since the force was switched on
+  bool let_go = false;     // true: pull-off since the force was switched on, or the swing taken and given back
+  std::optional<bool> swing_taken{};  // true: the sample has the swing of a lever that taps; none without tapping
 };
 
 // Progress counted by CycleHistory.
 struct CycleProgress {
   bool ascending = false;
   bool pressed = false;
-  int cycles = 0;  // number of cycles on the sample under the tip
+  int cycles = 0;                       // number of cycles on the sample under the tip
+  std::optional<double> swing_share{};  // amplitude in free amplitudes; none without tapping
 };
 
 // True if the hand is on the scale on which the tip pushes particles, where a cycle of approach and retract is no goal.

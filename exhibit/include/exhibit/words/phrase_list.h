@@ -17,6 +17,9 @@
   PHRASE(LetGo, "let-go", kControlPlaces, kLine)                   \
   PHRASE(GoBeside, "go-beside", kControlPlaces, kLine)             \
   PHRASE(PushAside, "push-aside", kControlPlaces, kLine)           \
+  PHRASE(TakeSwing, "take-swing", kControlPlaces, kLine)           \
+  PHRASE(GiveSwing, "give-swing", kControlPlaces, kLine)           \
+  PHRASE(SwingsFree, "swings-free", kControlPlaces, kLine)         \
   PHRASE(PressToGoOn, "press-to-go-on", kControlPlaces, kLine)     \
   PHRASE(ServoEnded, "servo-ended", kControlPlaces, kLine)         \
   PHRASE(ForceOff, "force-off", "", kLine)                         \

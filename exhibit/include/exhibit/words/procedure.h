@@ -20,13 +20,15 @@ class Procedure {
 
  private:
   void follow_cycles(const scene::TipState& tip, int cycles);
+  void follow_swing(const scene::TipState& tip, std::optional<double> share);
 
   std::optional<Hint> shown_;
   std::int64_t shown_since_ns_ = 0;
   std::int32_t material_ = -1;
   int cycles_ = 0;
-  bool let_go_ = false;      // true: pull-off since the force was switched on
-  bool reward_due_ = false;  // true: pull-off not yet announced on the wall
+  bool swing_taken_ = false;  // true: the sample has taken the swing of a lever that taps, and not given it back
+  bool let_go_ = false;       // true: pull-off since the force was switched on
+  bool reward_due_ = false;   // true: pull-off not yet announced on the wall
 };
 
 }  // namespace afm::exhibit
