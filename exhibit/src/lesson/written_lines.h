@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,14 +10,28 @@
 #include "exhibit/state/lines_to_write.h"
 #include "scene/shared/soft_blocks.h"
 
+namespace afm::scene {
+struct ParticleSet;
+}
+
 namespace afm::exhibit {
 
-// Marks of a soft sample beside the lines that were to be written. A mark is a square that lies at least 0.1 nm below
-// the level sample, without load.
+// Squares of marks, kSoftSide by kSoftSide of them. A mark is a square of a soft sample that lies at least 0.1 nm below
+// the level sample, without load; or one that ink covers.
+struct MarkGrid {
+  double spacing_m = 0;
+  glm::dvec2 first_m{0.0};  // middle of the square with the least x and y
+  double layer_m = 0;       // thickness of the ink; 0: a soft sample
+};
+
+// `set` has a soft sample or ink.
+MarkGrid mark_grid(const scene::ParticleSet& set);
+
+// Marks beside the lines that were to be written.
 struct WrittenLines {
   double share = 0;       // share of the lines, 0 to 1, with a mark within half a width
-  double width_m = 0;     // mean width of the groove along the lines; 0: there is none
-  double off_m = 0;       // root mean square distance of the middle of the groove from the lines
+  double width_m = 0;     // mean width of groove or ink along the lines; 0: there is none
+  double off_m = 0;       // root mean square distance of its middle from the lines
   double outside_m2 = 0;  // area of marks farther than kOutsideWidths from the lines
 };
 
@@ -29,12 +44,12 @@ enum class WritingFault { MarksOutside, TooNarrow, TooWide, LinesLeft };
 // Such as "20 nm".
 std::string length_words(double length_m);
 
-// True if a line has a place whose groove can be measured: a width or more from the ends of its straight part, and two
+// True if a line has a place whose width can be measured: a width or more from the ends of its straight part, and two
 // from every other part. `line` is its number in `lines`.
-bool can_be_measured(const LinesToWrite& lines, std::size_t line, double tip_radius_m);
+bool can_be_measured(const LinesToWrite& lines, std::size_t line, const MarkGrid& grid);
 
-// `tiles` are kMarkTiles of a sample for a tip of that radius; each line can be measured.
-WrittenLines written_lines(std::span<const scene::MarkTile> tiles, double tip_radius_m, const LinesToWrite& lines);
+// `tiles` are kMarkTiles of that grid; each line can be measured.
+WrittenLines written_lines(std::span<const scene::MarkTile> tiles, const MarkGrid& grid, const LinesToWrite& lines);
 
 // The first fault in the order of the enumerators, or nothing: the lines are done.
 std::optional<WritingFault> fault_of(const WrittenLines& written, const LinesToWrite& lines);
