@@ -33,6 +33,8 @@
 #include "exhibit/scan/map_picture.h"
 #include "exhibit/scan/scan_panels.h"
 #include "exhibit/scan/scan_subject.h"
+#include "exhibit/scenery/lines_on_sample.h"
+#include "exhibit/state/lines_to_write.h"
 #include "exhibit/state/particle_task.h"
 #include "exhibit/state/particles_now.h"
 #include "render/context.h"
@@ -206,6 +208,7 @@ core::Result<void> draw_frame(exhibit::Stage& stage, const std::vector<curves::S
     if (then.moment.wall.particles != nullptr && scene::leaves_marks(*then.moment.wall.particles->set)) {
       exhibit::leave_law_out(*then.moment.wall.particles, stage.phrases(), frame.panels.force.content);
     }
+    if (then.frame->lines) exhibit::add_lines(exhibit::lines_of(*then.frame->lines), stage.wall_scene, frame);
     if (material) overlay.add_to(frame, models[*material], then.moment.wall, then.moment.retracting, curves_of_map);
   };
   return draw(stage, models, then.moment, picture, options.out, add_panels);

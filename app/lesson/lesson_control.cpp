@@ -14,12 +14,14 @@
 #include "app/view/view_wand.h"
 #include "exhibit/frame/blank_picture.h"
 #include "exhibit/frame/exhibit_setup.h"
+#include "exhibit/frame/recorded_wall.h"
 #include "exhibit/lesson/live_lesson.h"
 #include "exhibit/panels/panel_hit.h"
 #include "exhibit/scenery/lines_on_sample.h"
 #include "exhibit/sound/narrator.h"
 #include "exhibit/state/moment.h"
 #include "servo/servo_client.h"
+#include "servo/wall_frame.h"
 
 namespace afm::app {
 
@@ -115,6 +117,11 @@ void LessonControl::add_to_moment(exhibit::Moment& now, ViewFrame& /*frame*/) {
   now.wall.swing = {};
   now.wall.cue = {};
   now.curves = {};
+}
+
+void LessonControl::add_to_session(servo::WallFrame& shown) const {
+  const exhibit::LinesToWrite* const lines = lesson_.prompt().lines;
+  if (lines != nullptr && lesson_.shows_scene()) shown.lines = exhibit::recorded_lines(*lines);
 }
 
 void LessonControl::add_to_picture(render::FrameState& picture, const ViewFrame& /*frame*/) {

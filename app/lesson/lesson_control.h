@@ -35,6 +35,7 @@ class LessonControl final : public ViewControl, public ViewGuide {
   void update(const ViewFrame& frame) override;
   void add_to_moment(exhibit::Moment& now, ViewFrame& frame) override;
   std::optional<std::string> guidance(const exhibit::Phrases& phrases) const override;
+  void add_to_session(servo::WallFrame& shown) const override;
   void add_to_picture(render::FrameState& picture, const ViewFrame& frame) override;
   void restart(Restart what) override;
 

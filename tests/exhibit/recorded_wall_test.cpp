@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "exhibit/state/lines_to_write.h"
+
 namespace afm::exhibit {
 namespace recorded_wall_test {
 
@@ -71,6 +73,14 @@ TEST(RecordedWall, ShowsAFrameUntilTheNextOneAndTheFirstOneBeforeIt) {
   EXPECT_EQ(moment_on_wall(all, kShown, kFirstNs + 2 * kFrameNs - 1).frame, &all.wall[1]);
   EXPECT_EQ(moment_on_wall(all, kShown, kFirstNs + 3 * kFrameNs - 1).frame, &all.wall[2]);
   EXPECT_EQ(moment_on_wall(all, kShown, kFirstNs + 9 * kFrameNs).frame, &all.wall[3]);
+}
+
+TEST(RecordedWall, KeepsLinesToBeWritten) {
+  const LinesToWrite lines{.lines_m = {{{-80e-9, 40e-9}, {80e-9, 40e-9}}, {{0.0, 40e-9}, {1e-9, 0.0}, {2e-9, -1e-9}}},
+                           .width_m = 20e-9};
+  const LinesToWrite back = lines_of(recorded_lines(lines));
+  EXPECT_EQ(back.lines_m, lines.lines_m);
+  EXPECT_EQ(back.width_m, lines.width_m);
 }
 
 }  // namespace recorded_wall_test

@@ -63,7 +63,8 @@ TEST(InkRun, RefusesWithKeyAndReason) {
   EXPECT_THAT(refusal("\"2 nm\"", "\"0 nm\""), HasSubstr("thickness"));
   EXPECT_THAT(refusal("[start]", "[sample]\nname = 1\n[start]"), HasSubstr("leave this or [ink] out"));
   EXPECT_THAT(refusal("\"72.8 mN/m\"", "\"-1 mN/m\""), HasSubstr("surface_tension"));
-  EXPECT_THAT(refusal("\"0.1 N/m\"", "\"-1 N/m\""), HasSubstr("normal_spring"));
+  EXPECT_THAT(refusal("\"0.1 N/m\"", "\"-1 N/m\""),
+              HasSubstr("lever.normal_spring: normal spring -1 N/m is not within"));
   EXPECT_THAT(refusal("[lever]\n", "[lever]\nlateral_spring = 1\n"), HasSubstr("lateral_spring"));
   EXPECT_THAT(refusal("surface_tension", "# surface_tension"), HasSubstr("surface_tension"));
 }

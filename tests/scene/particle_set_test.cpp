@@ -274,6 +274,32 @@ TEST(ParticleSet, IsNotLookedForAmongNone) {
               HasSubstr("choose blind-line, gold-row, "));
 }
 
+// With another law, and without one of its numbers.
+std::string without(const std::string& key, const std::string& law) {
+  std::string text = changed("law = \"area\"", "law = \"" + law + "\"");
+  const std::size_t at = text.find("\n" + key + " = ");
+  EXPECT_NE(at, std::string::npos) << key;
+  return text.erase(at, text.find('\n', at + 1) - at);
+}
+
+TEST(ParticleSet, RefusesATipThatStartsInsideAParticle) {
+  EXPECT_THAT(
+      refusal(changed("x = \"-80 nm\"\ny = \"1 nm\"\nz = \"80 nm\"", "x = \"10 nm\"\ny = \"1 nm\"\nz = \"0 nm\"")),
+      HasSubstr("start.z: the tip would be inside particle 1, which it touches at "));
+  // the tip touches the sphere 40.3 nm from its axis
+  const auto at_m = [](const std::string& x) {
+    return changed("x = \"-80 nm\"\ny = \"1 nm\"\nz = \"80 nm\"", "x = \"" + x + "\"\ny = \"0 nm\"\nz = \"0 nm\"");
+  };
+  EXPECT_THAT(refusal(at_m("-40.2 nm")), HasSubstr("inside particle 1"));
+  EXPECT_EQ(refusal(at_m("-40.3 nm")), "accepted");
+  const auto tube = [](const std::string& x, const std::string& y) {
+    return changed_tube("x = \"334 nm\"\ny = \"320 nm\"\nz = \"80 nm\"",
+                        "x = \"" + x + "\"\ny = \"" + y + "\"\nz = \"0 nm\"");
+  };
+  EXPECT_THAT(refusal(tube("328 nm", "229 nm")), HasSubstr("inside particle 1")) << "near the end of its axis";
+  EXPECT_EQ(refusal(tube("328 nm", "-229 nm")), "accepted");
+}
+
 TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_EQ(refusal(shipped()), "accepted");
   EXPECT_THAT(refusal(changed("\"25 nm\"", "\"25 N\"")), HasSubstr("species.radius: cannot read"));
@@ -291,7 +317,15 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_THAT(refusal(changed("\"1 N/m\"", "\"1 mJ/m2\"")), HasSubstr("lever.normal_spring"));
   EXPECT_THAT(refusal(changed("law = \"area\"", "law = \"hope\"")),
               HasSubstr("hope is unknown; known are area, amontons"));
-  EXPECT_THAT(refusal(changed("law = \"area\"", "law = \"measured\"")), HasSubstr("species.measured_threshold"));
+  EXPECT_THAT(refusal(changed("law = \"area\"", "law = \"measured\"")),
+              HasSubstr("species.measured_threshold: is missing; the law measured needs it"));
+  for (const std::string law : {"area", "both"}) {
+    EXPECT_THAT(refusal(without("shear_strength", law)), HasSubstr("shear_strength: is missing; the law " + law));
+  }
+  for (const std::string law : {"amontons", "both"}) {
+    EXPECT_THAT(refusal(without("coefficient", law)), HasSubstr("coefficient: is missing; the law " + law));
+  }
+  EXPECT_EQ(refusal(without("coefficient", "area")), "accepted");
   EXPECT_THAT(refusal(changed("x = \"180 nm\"\ny = \"-20 nm\"", "x = \"10 nm\"\ny = \"0 nm\"")),
               HasSubstr("particles 0 and 1 overlap"));
   EXPECT_THAT(refusal(changed("x = \"180 nm\"", "x = \"180 mm\"")), HasSubstr("particle.x: 180 mm is not within"));

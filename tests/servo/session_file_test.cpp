@@ -246,6 +246,7 @@ TEST(SessionFile, CarriesWhatTheWallShowed) {
                         {.frame = 1, .pixel = 7, .setpoint_n = 1e-9, .apex_distance_m = 1e-8},
                         {.frame = 1, .pixel = 9, .setpoint_n = 0.8, .free_amplitude_m = 15e-9, .drive_hz = 299'850.0}};
   frame.map = RecordedMapView{"modulus", true, -1e-9 / 3.0, 1e7 / 3.0, 0.03};
+  frame.lines = RecordedLines{{{{-8e-8, 1e-7 / 3.0}, {8e-8, 0.0}, {0.0, -1e-9}}, {{0.0, 0.0}, {1e-9, 1e-9}}}, 2e-8};
   session.wall.push_back(frame);
   frame.wand.reset();
   frame.head.position_m = {0.3, 1.7, 2.0};
@@ -285,8 +286,7 @@ TEST(SessionFile, OfAnotherVersionNamesBoth) {
 TEST(SessionFile, WithAnEventOfAnUnknownKindIsRefused) {
   const support::ScratchFolder folder;
   RecordedSession session = example();
-  ASSERT_FALSE(session.events.empty());
-  session.events.front().kind = static_cast<physics::EventKind>(99);
+  session.events.at(0).kind = static_cast<physics::EventKind>(99);
   ASSERT_TRUE(save_session(session, folder.file("s.afms")));
   EXPECT_THAT(error_of(folder.file("s.afms")), HasSubstr("an event of an unknown kind"));
 }

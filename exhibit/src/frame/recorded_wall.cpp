@@ -12,6 +12,7 @@
 #include "core/enumerators.h"
 #include "core/members.h"
 #include "exhibit/state/cycle_history.h"
+#include "exhibit/state/lines_to_write.h"
 #include "scene/shared/field_copy.h"
 
 namespace afm::exhibit {
@@ -126,6 +127,24 @@ scene::HeadPose head_of(const scene::Pose& pose) {
   scene::convert(pose.position_m, head.position_m);
   scene::convert(pose.orientation, head.room_from_head);
   return head;
+}
+
+servo::RecordedLines recorded_lines(const LinesToWrite& lines) {
+  servo::RecordedLines recorded{.lines_m = {}, .width_m = lines.width_m};
+  for (const std::vector<glm::dvec2>& corners_m : lines.lines_m) {
+    auto& line = recorded.lines_m.emplace_back();
+    for (const glm::dvec2& corner_m : corners_m) line.push_back({corner_m.x, corner_m.y});
+  }
+  return recorded;
+}
+
+LinesToWrite lines_of(const servo::RecordedLines& recorded) {
+  LinesToWrite lines{.lines_m = {}, .width_m = recorded.width_m};
+  for (const auto& line : recorded.lines_m) {
+    std::vector<glm::dvec2>& corners_m = lines.lines_m.emplace_back();
+    for (const auto& [x_m, y_m] : line) corners_m.emplace_back(x_m, y_m);
+  }
+  return lines;
 }
 
 servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::span<const std::string> materials) {

@@ -18,6 +18,7 @@
 #include "physics/quantity_text.h"
 #include "push_trial.h"
 #include "scene/config/toml_table.h"
+#include "scene/samples/ink_run.h"
 #include "scene/samples/particle_files.h"
 #include "scene/samples/particle_set.h"
 #include "scene/shared/soft_blocks.h"
@@ -33,7 +34,8 @@ using study::StepGround;
 constexpr std::size_t kMostPathLetters = 1000;
 constexpr std::size_t kMostLines = 20, kMostCorners = 20;
 constexpr double kNarrowestGroove = 0.5, kWidestGroove = 2.0;  // width in radii of the tip
-constexpr double kShortestPart = 4.0;                          // length in widths of the groove
+constexpr double kNarrowestInk = 0.25, kWidestInk = 1.0;       // width in dots of a second
+constexpr double kShortestPart = 4.0;                          // length in widths of the line
 constexpr const char* kLinesLike = "lines such as [[\"-50 nm, 0 nm\", \"50 nm, 0 nm\"]]";
 
 // Longer side of the field on which the particles of a set lie, with a radius around it: the reach of the hand.
@@ -88,7 +90,7 @@ std::vector<glm::dvec2> read_line(const TomlTable& table, const toml::node& node
 }
 
 // Refuses parts that are too short, and lines on which no place can be measured.
-void refuse_short(const TomlTable& table, const LinesToWrite& lines, double tip_radius_m) {
+void refuse_short(const TomlTable& table, const LinesToWrite& lines, const MarkGrid& grid) {
   const double shortest_m = kShortestPart * lines.width_m;
   for (std::size_t number = 0; number < lines.lines_m.size(); ++number) {
     const auto& corners_m = lines.lines_m[number];
@@ -99,11 +101,25 @@ void refuse_short(const TomlTable& table, const LinesToWrite& lines, double tip_
     }
   }
   for (std::size_t number = 0; number < lines.lines_m.size(); ++number) {
-    if (can_be_measured(lines, number, tip_radius_m)) continue;
-    table.refuse("lines", fmt::format("line {} is nowhere {} or more from all other parts, so that the width of its "
-                                      "groove could be measured",
+    if (can_be_measured(lines, number, grid)) continue;
+    table.refuse("lines", fmt::format("line {} is nowhere {} or more from all other parts, so that its width could be "
+                                      "measured",
                                       number + 1, length_words(kOutsideWidths * lines.width_m)));
   }
+}
+
+// Width of the lines.
+double read_width_m(const TomlTable& table, const scene::ParticleSet& set) {
+  const double width_m = table.quantity("width", physics::kLengthUnits).si;
+  const double unit_m = set.ink ? scene::ink_dot_m(set.ink->ink) : set.setup.tip.radius.si;
+  const double least_m = (set.ink ? kNarrowestInk : kNarrowestGroove) * unit_m;
+  const double most_m = (set.ink ? kWidestInk : kWidestGroove) * unit_m;
+  if (!(width_m >= least_m && width_m <= most_m)) {
+    table.refuse("width", fmt::format("must lie between {} and {}, {}", length_words(least_m), length_words(most_m),
+                                      set.ink ? "a quarter of the dot that ink makes in a second, and all of it"
+                                              : "half and twice the radius of the tip"));
+  }
+  return width_m;
 }
 
 }  // namespace
@@ -117,7 +133,9 @@ void read_particles(const TomlTable& top, const std::string& assets_dir, Lesson&
   if (!path) top.refuse("particles", path.error().message);
   auto set = scene::load_particle_set(*path);
   if (!set) top.refuse("particles", set.error().message);
-  if (set->ink) top.refuse("particles", lesson.particles + " has ink; a lesson takes spheres or a soft sample alone");
+  if (set->ink && set->ink->surface_tension.si == 0.0) {
+    top.refuse("particles", lesson.particles + " has ink, but no tip, lever and surface_tension for a hand");
+  }
   if (std::any_of(set->setup.species.begin(), set->setup.species.end(), physics::turns_flat)) {
     top.refuse("particles", lesson.particles + " has rods or islands; a lesson takes spheres alone");
   }
@@ -158,26 +176,21 @@ PushPlan read_push(const TomlTable& table, const scene::ParticleSet& set) {
 
 LinesToWrite read_lines(const TomlTable& table, const scene::ParticleSet& set) {
   LinesToWrite lines;
-  const double radius_m = set.setup.tip.radius.si, reach_m = scene::soft_reach_m(radius_m);
-  lines.width_m = table.quantity("width", physics::kLengthUnits).si;
-  if (!(lines.width_m >= kNarrowestGroove * radius_m && lines.width_m <= kWidestGroove * radius_m)) {
-    table.refuse("width",
-                 fmt::format("must lie between {} and {}, half and twice the radius of the tip",
-                             length_words(kNarrowestGroove * radius_m), length_words(kWidestGroove * radius_m)));
-  }
+  const double reach_m = set.ink ? scene::ink_reach_m(set.ink->ink) : scene::soft_reach_m(set.setup.tip.radius.si);
+  lines.width_m = read_width_m(table, set);
   const toml::array* const all = table.node("lines").as_array();
   if (all == nullptr || all->empty() || all->size() > kMostLines) {
     table.refuse("lines", fmt::format("must be 1 to {} {}", kMostLines, kLinesLike));
   }
   lines.lines_m.reserve(all->size());
   for (const toml::node& line : *all) lines.lines_m.push_back(read_line(table, line, reach_m));
-  refuse_short(table, lines, radius_m);
+  refuse_short(table, lines, mark_grid(set));
   return lines;
 }
 
 // Refuses steps on materials if there are particles or a soft sample: their scale does not suit a material's force.
 void refuse_kind_on_ground(const TomlTable& table, const study::StepKindRow& row, const Lesson& lesson) {
-  const bool soft = lesson.set && scene::leaves_marks(*lesson.set);
+  const bool marks = lesson.set && scene::leaves_marks(*lesson.set);
   const auto refuse = [&](std::string_view what) { table.refuse("type", fmt::format("{} {}", row.word, what)); };
   switch (row.ground) {
     case StepGround::Any:
@@ -187,10 +200,13 @@ void refuse_kind_on_ground(const TomlTable& table, const study::StepKindRow& row
       return;
     case StepGround::Particles:
       if (!lesson.set) refuse("needs the lesson's particles");
-      if (soft) refuse(fmt::format("needs particles, and {} has a soft sample: use write", lesson.particles));
+      if (marks) {
+        refuse(fmt::format("needs particles, and {} has {}: use write", lesson.particles,
+                           lesson.set->ink ? "ink" : "a soft sample"));
+      }
       return;
     case StepGround::SoftSample:
-      if (!soft) refuse("needs a soft sample: particles = \"scratch-pmma\" in the lesson");
+      if (!marks) refuse("needs a soft sample or ink: particles = \"scratch-pmma\" in the lesson");
   }
 }
 

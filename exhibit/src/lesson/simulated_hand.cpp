@@ -66,8 +66,8 @@ core::Result<std::unique_ptr<SimulatedHand>> SimulatedHand::create(const curves:
   auto segment = scene::SharedSegment::create(*servo_model(sample, set), 0);
   if (!segment) return tl::unexpected(segment.error());
   auto servo = std::make_unique<SimulatedServo>(std::move(*segment));
-  auto hand =
-      set.soft ? make_writing_hand(set, std::move(servo), seed) : make_pushing_hand(set, std::move(servo), seed);
+  auto hand = scene::leaves_marks(set) ? make_writing_hand(set, std::move(servo), seed)
+                                       : make_pushing_hand(set, std::move(servo), seed);
   if (auto begun = hand->begin(); !begun) return tl::unexpected(begun.error());
   return hand;
 }

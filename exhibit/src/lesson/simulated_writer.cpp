@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "exhibit/state/lines_to_write.h"
+#include "physics/manipulation/ink.h"
+#include "scene/samples/ink_run.h"
 #include "scene/samples/particle_set.h"
 #include "scene/samples/scratch_run.h"
 
@@ -31,10 +33,12 @@ class WritingHand final : public SimulatedHand {
  private:
   void attempt(const LessonPrompt& prompt) override;
   void press();
+  void release();
   void draw_to(const glm::dvec2& from_m, const glm::dvec2& to_m);
   glm::dvec2 tip_m() const;
 
-  double load_n_ = 0;  // load with which to press
+  double load_n_ = 0;                 // load with which to press
+  double draw_m_per_s_ = kDrawMPerS;  // speed of the hand along a line
   std::size_t begun_ = 0;
   bool tried_ = false;
 };
@@ -43,22 +47,35 @@ class WritingHand final : public SimulatedHand {
 void WritingHand::attempt(const LessonPrompt& prompt) {
   if (std::exchange(begun_, prompt.task + 1) == prompt.task + 1 && tried_) put_back();
   tried_ = true;
-  // half of the contact bears a tip that is dragged: 2 F = pi H (w/2)^2
-  const double half_m = 0.5 * prompt.lines->width_m;
-  load_n_ = 0.5 * std::numbers::pi * set().soft->surface.hardness.si * half_m * half_m;
+  if (set().ink) {  // which the speed makes wide or narrow, at any load
+    draw_m_per_s_ = m_per_m() * physics::inked_area(set().ink->ink, physics::Time(1.0)).si / prompt.lines->width_m;
+  } else {
+    // half of the contact bears a tip that is dragged: 2 F = pi H (w/2)^2
+    const double half_m = 0.5 * prompt.lines->width_m;
+    load_n_ = 0.5 * std::numbers::pi * set().soft->surface.hardness.si * half_m * half_m;
+  }
   for (const std::vector<glm::dvec2>& corners_m : prompt.lines->lines_m) {
     go(m_per_m() * corners_m.front(), high_m(), kWayMPerS);
     press();
     for (std::size_t i = 1; i < corners_m.size(); ++i) draw_to(corners_m[i - 1], corners_m[i]);
-    lift();
+    release();
     rest(1.0);
   }
 }
 
-// Comes down until the load is felt.
+// Comes down until the load is felt, or ink flows.
 void WritingHand::press() {
   const double lowest_m = -high_m();
-  while (push().lift_n < load_n_ && height_m() > lowest_m) step(at_m(), height_m() - kCommandS * kTouchMPerS);
+  const auto presses = [&] { return set().ink ? push().state != physics::PushState::Free : push().lift_n >= load_n_; };
+  while (!presses() && height_m() > lowest_m) step(at_m(), height_m() - kCommandS * kTouchMPerS);
+}
+
+// Rises, with ink until the liquid tears.
+void WritingHand::release() {
+  lift();
+  for (int i = 0; i < kMostDrawSteps && push().state != physics::PushState::Free; ++i) {
+    step(at_m(), height_m() + kCommandS * kWayMPerS);
+  }
 }
 
 void WritingHand::draw_to(const glm::dvec2& from_m, const glm::dvec2& to_m) {
@@ -66,13 +83,14 @@ void WritingHand::draw_to(const glm::dvec2& from_m, const glm::dvec2& to_m) {
   std::deque<glm::dvec2> seen_m{tip_m()};
   for (int i = 0; i < kMostDrawSteps; ++i) {
     const glm::dvec2 there_m = seen_m.front();
-    if (glm::dot(to_m - there_m, along) < kDrawMPerS / m_per_m() * kSeenAfterS) break;
+    if (glm::dot(to_m - there_m, along) < draw_m_per_s_ / m_per_m() * kSeenAfterS) break;
     const double off_m = m_per_m() * glm::dot(there_m - from_m, aside);
     const scene::TipPush now = push();
     // the height by which a softer or harder lever changes the load
     const double spring_n_per_m = set().setup.springs.normal.si / now.softened_upwards;
-    const double down_m = kCommandS * kPressPerS * m_per_m() * (load_n_ - now.lift_n) / spring_n_per_m;
-    step(at_m() + kCommandS * (kDrawMPerS * along - kSteerPerS * off_m * aside),
+    const double down_m =
+        set().ink ? 0.0 : kCommandS * kPressPerS * m_per_m() * (load_n_ - now.lift_n) / spring_n_per_m;
+    step(at_m() + kCommandS * (draw_m_per_s_ * along - kSteerPerS * off_m * aside),
          height_m() - std::clamp(down_m, -kFastestM, kFastestM));
     seen_m.push_back(tip_m());
     if (seen_m.size() > kSeenAfter) seen_m.pop_front();

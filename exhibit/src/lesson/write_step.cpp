@@ -16,15 +16,17 @@ namespace afm::exhibit {
 namespace {
 
 // Reason why the lines are not done, with a remedy.
-std::string words_of(WritingFault fault, const WrittenLines& written, const LinesToWrite& lines,
+std::string words_of(WritingFault fault, const WrittenLines& written, const LinesToWrite& lines, bool ink,
                      const Phrases& phrases) {
   const std::string width = length_words(written.width_m), wanted = length_words(lines.width_m);
   switch (fault) {
     case WritingFault::MarksOutside:
       return phrases.text<Phrase::LessonMarksOutside>(length_words(kOutsideWidths * lines.width_m));
     case WritingFault::TooNarrow:
+      if (ink) return phrases.text<Phrase::LessonInkTooNarrow>(width, wanted);
       return phrases.text<Phrase::LessonTooNarrow>(width, wanted);
     case WritingFault::TooWide:
+      if (ink) return phrases.text<Phrase::LessonInkTooWide>(width, wanted);
       return phrases.text<Phrase::LessonTooWide>(width, wanted);
     case WritingFault::LinesLeft:
       break;
@@ -42,7 +44,8 @@ class WriteActivity final : public StepActivity {
     prompt.wants = LessonPrompt::Wants::Write;
     prompt.words = context_.words();
     if (const auto fault = trial_ ? trial_->fault() : std::nullopt) {
-      prompt.words = words_of(*fault, trial_->written(), lines, context_.phrases) + " " + prompt.words;
+      prompt.words = words_of(*fault, trial_->written(), lines, context_.particles->ink != nullptr, context_.phrases) +
+                     " " + prompt.words;
     }
     prompt.lines = &lines;
     prompt.material = 0;
@@ -85,7 +88,7 @@ class WriteActivity final : public StepActivity {
 }  // namespace
 
 std::unique_ptr<StepActivity> make_write_activity(const StepContext& context, double now_s) {
-  AFM_CHECK(context.particles != nullptr && context.particles->soft != nullptr);
+  AFM_CHECK(context.particles != nullptr && scene::leaves_marks(*context.particles));
   AFM_CHECK(context.step.lines != nullptr);
   return std::make_unique<WriteActivity>(context, now_s);
 }

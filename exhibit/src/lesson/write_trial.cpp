@@ -8,7 +8,7 @@ namespace afm::exhibit {
 using physics::EventKind;
 
 WriteTrial::WriteTrial(const scene::ParticleSet& set, const LinesToWrite& lines)
-    : tip_radius_m_(set.setup.tip.radius.si), lines_(lines), task_(set, {}) {}
+    : grid_(mark_grid(set)), lines_(lines), task_(set, {}) {}
 
 void WriteTrial::add(const scene::TipEvent& event) {
   const bool back = event.kind == EventKind::PushTakenBack || event.kind == EventKind::ParticlesPutBack;
@@ -36,7 +36,7 @@ void WriteTrial::add(const scene::TipSample& sample) {
 
 bool WriteTrial::look(std::span<const scene::MarkTile> tiles) {
   if (!task_.unjudged() || tiles.size() != scene::kMarkTiles || scene::digest_of(tiles) != digest_) return false;
-  written_ = written_lines(tiles, tip_radius_m_, lines_);
+  written_ = written_lines(tiles, grid_, lines_);
   const auto fault = fault_of(written_, lines_);
   if (fault) {
     task_.judge({});  // wait for another stroke

@@ -13,12 +13,12 @@
 
 namespace afm::exhibit {
 
-// Lines that a step makes a person write into a soft sample, judged once the tip has been lifted for
-// scene::PatternTask::kRestNs, and scored like a push. Undoing a stroke, or levelling the sample,
-// counts as taken back. The sample is level when the trial begins. One thread.
+// Lines that a step makes a person write on a sample that keeps marks, judged once the tip has been lifted for
+// scene::PatternTask::kRestNs, and scored like a push. Undoing a stroke, or levelling the sample, counts as taken back.
+// The sample is level when the trial begins. One thread.
 class WriteTrial {
  public:
-  // `set` has a soft sample; both must outlive the object.
+  // `set` has a soft sample or ink; both must outlive the object.
   WriteTrial(const scene::ParticleSet& set, const LinesToWrite& lines);
 
   // Call in order of time, with the events of a tick before its sample.
@@ -35,7 +35,7 @@ class WriteTrial {
   std::optional<WritingFault> fault() const { return fault_; }
 
  private:
-  double tip_radius_m_;
+  MarkGrid grid_;
   const LinesToWrite& lines_;
   scene::PatternTask task_;
   std::uint64_t digest_ = scene::kSoftDigest;  // digest of the newest sample

@@ -10,8 +10,11 @@
 
 #include "core/check.h"
 #include "exhibit/models/marks_relief.h"
+#include "physics/manipulation/ink.h"
 #include "physics/manipulation/marked_surface.h"
 #include "physics/quantity_text.h"
+#include "scene/samples/ink_run.h"
+#include "scene/samples/particle_set.h"
 
 namespace afm::exhibit {
 
@@ -20,6 +23,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double kMarkM = 1e-10;     // smallest depth of a mark
+constexpr double kInkM = 1e-9;       // depth of a groove as which ink counts
 constexpr double kFromEnds = 1.0;    // distance from a measured place to the ends of its part, in widths
 constexpr double kFromOthers = 2.0;  // distance to another part, in widths
 constexpr double kWithin = 0.5;      // largest distance from a place of a line to a mark, in widths
@@ -77,22 +81,21 @@ std::vector<LinePlace> line_places(const LinesToWrite& lines, double spacing_m) 
   return places;
 }
 
-// Heights of the marks without load, on the squares of a sample and between their middles.
+// Heights of a sample without load, on its squares and between their middles. Ink counts as a groove of kInkM, beside
+// which the bare sample is as high, so that its edge lies halfway between a covered square and a bare one.
 class MarkHeights {
  public:
-  MarkHeights(std::span<const scene::MarkTile> tiles, double tip_radius_m)
-      : tiles_(tiles),
-        spacing_m_(tip_radius_m / physics::MarkedSurface::kSquaresPerRadius),
-        first_m_(-scene::soft_reach_m(tip_radius_m) - (physics::MarkedSurface::kReach + 1) * spacing_m_) {}
+  MarkHeights(std::span<const scene::MarkTile> tiles, const MarkGrid& grid) : tiles_(tiles), grid_(grid) {}
 
-  double spacing_m() const { return spacing_m_; }
+  double spacing_m() const { return grid_.spacing_m; }
   dvec2 middle_m(std::size_t column, std::size_t row) const {
-    return {first_m_ + static_cast<double>(column) * spacing_m_, first_m_ + static_cast<double>(row) * spacing_m_};
+    return {grid_.first_m.x + static_cast<double>(column) * grid_.spacing_m,
+            grid_.first_m.y + static_cast<double>(row) * grid_.spacing_m};
   }
-  bool is_marked(std::size_t column, std::size_t row) const { return mark_height_m(tiles_, column, row) <= -kMarkM; }
+  bool is_marked(std::size_t column, std::size_t row) const { return height_m(column, row) <= -kMarkM; }
 
   double at(const dvec2& place_m) const {
-    const dvec2 squares = glm::clamp((place_m - first_m_) / spacing_m_, 0.0, scene::kSoftSide - 1.001);
+    const dvec2 squares = glm::clamp((place_m - grid_.first_m) / grid_.spacing_m, 0.0, scene::kSoftSide - 1.001);
     const auto column = static_cast<std::size_t>(squares.x), row = static_cast<std::size_t>(squares.y);
     const dvec2 share = squares - glm::floor(squares);
     return glm::mix(glm::mix(height_m(column, row), height_m(column + 1, row), share.x),
@@ -101,12 +104,12 @@ class MarkHeights {
 
   // True if a mark has its middle within that distance of the place.
   bool has_mark_near(const dvec2& place_m, double within_m) const {
-    const auto first = [&](double at_m) {
-      return static_cast<std::size_t>(std::max(0.0, std::ceil((at_m - within_m - first_m_) / spacing_m_)));
+    const auto first = [&](double at_m, double first_m) {
+      return static_cast<std::size_t>(std::max(0.0, std::ceil((at_m - within_m - first_m) / grid_.spacing_m)));
     };
-    for (std::size_t row = first(place_m.y); row < scene::kSoftSide; ++row) {
+    for (std::size_t row = first(place_m.y, grid_.first_m.y); row < scene::kSoftSide; ++row) {
       if (middle_m(0, row).y > place_m.y + within_m) break;
-      for (std::size_t column = first(place_m.x); column < scene::kSoftSide; ++column) {
+      for (std::size_t column = first(place_m.x, grid_.first_m.x); column < scene::kSoftSide; ++column) {
         const dvec2 at_m = middle_m(column, row);
         if (at_m.x > place_m.x + within_m) break;
         if (glm::distance(at_m, place_m) <= within_m && is_marked(column, row)) return true;
@@ -116,10 +119,14 @@ class MarkHeights {
   }
 
  private:
-  double height_m(std::size_t column, std::size_t row) const { return mark_height_m(tiles_, column, row); }
+  double height_m(std::size_t column, std::size_t row) const {
+    const double height_m = mark_height_m(tiles_, column, row);
+    if (grid_.layer_m == 0.0) return height_m;
+    return height_m != 0.0 ? -kInkM : kInkM;
+  }
 
   std::span<const scene::MarkTile> tiles_;
-  double spacing_m_, first_m_;
+  MarkGrid grid_;
 };
 
 // Groove across a line: the offset of its middle, and its width.
@@ -158,15 +165,28 @@ std::string length_words(double length_m) {
   return physics::format_quantity(physics::Length(length_m), physics::kLengthUnits, 3);
 }
 
-bool can_be_measured(const LinesToWrite& lines, std::size_t line, double tip_radius_m) {
-  const auto places = line_places(lines, tip_radius_m / physics::MarkedSurface::kSquaresPerRadius);
+MarkGrid mark_grid(const scene::ParticleSet& set) {
+  if (set.ink) {
+    const physics::Ink& ink = set.ink->ink;
+    const physics::Length reach(scene::ink_reach_m(ink)), spacing(scene::ink_side_m(ink) / scene::kSoftSide);
+    const physics::InkedSurface surface(ink, {-reach, -reach}, {reach, reach}, physics::Length(0.0), spacing);
+    const auto first = surface.middle_of_first();
+    return {.spacing_m = spacing.si, .first_m = {first.x.si, first.y.si}, .layer_m = set.ink->thickness.si};
+  }
+  const double radius_m = set.setup.tip.radius.si, spacing_m = radius_m / physics::MarkedSurface::kSquaresPerRadius;
+  const double first_m = -scene::soft_reach_m(radius_m) - (physics::MarkedSurface::kReach + 1) * spacing_m;
+  return {.spacing_m = spacing_m, .first_m = dvec2(first_m)};
+}
+
+bool can_be_measured(const LinesToWrite& lines, std::size_t line, const MarkGrid& grid) {
+  const auto places = line_places(lines, grid.spacing_m);
   return std::any_of(places.begin(), places.end(),
                      [&](const LinePlace& place) { return place.line == line && place.measured; });
 }
 
-WrittenLines written_lines(std::span<const scene::MarkTile> tiles, double tip_radius_m, const LinesToWrite& lines) {
+WrittenLines written_lines(std::span<const scene::MarkTile> tiles, const MarkGrid& grid, const LinesToWrite& lines) {
   AFM_CHECK(tiles.size() == scene::kMarkTiles);
-  const MarkHeights heights(tiles, tip_radius_m);
+  const MarkHeights heights(tiles, grid);
   const std::vector<LinePlace> places = line_places(lines, heights.spacing_m());
   WrittenLines written;
   std::size_t count = 0, grooves = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -9,14 +10,28 @@
 #include "exhibit/state/lines_to_write.h"
 #include "scene/shared/soft_blocks.h"
 
+namespace afm::scene {
+struct ParticleSet;
+}
+
 namespace afm::exhibit {
 
-// Comparison of the marks on a soft sample with the lines to write. A mark is a square at least 0.1 nm below
-// the level sample, without load.
+// Squares of marks, kSoftSide by kSoftSide of them. A mark is a square of a soft sample at least 0.1 nm below the level
+// sample, without load, or a square that ink covers.
+struct MarkGrid {
+  double spacing_m = 0;
+  glm::dvec2 first_m{0.0};  // middle of the square with the least x and y
+  double layer_m = 0;       // thickness of the ink; 0: a soft sample
+};
+
+// `set` has a soft sample or ink.
+MarkGrid mark_grid(const scene::ParticleSet& set);
+
+// Comparison of the marks on a sample with the lines to write.
 struct WrittenLines {
   double share = 0;       // fraction of the lines with a mark within half a width, 0 to 1
-  double width_m = 0;     // mean width of the groove along the lines; 0: no groove
-  double off_m = 0;       // root mean square distance of the groove's middle from the lines
+  double width_m = 0;     // mean width of groove or ink along the lines; 0: none
+  double off_m = 0;       // root mean square distance of its middle from the lines
   double outside_m2 = 0;  // area of marks farther than kOutsideWidths from the lines
 };
 
@@ -29,12 +44,12 @@ enum class WritingFault { MarksOutside, TooNarrow, TooWide, LinesLeft };
 // A length as text, such as "20 nm".
 std::string length_words(double length_m);
 
-// True if a line has a place at which its groove can be measured: a width or more from the ends of its straight part,
+// True if a line has a place at which its width can be measured: a width or more from the ends of its straight part,
 // and two from every other part. `line` is its index in `lines`.
-bool can_be_measured(const LinesToWrite& lines, std::size_t line, double tip_radius_m);
+bool can_be_measured(const LinesToWrite& lines, std::size_t line, const MarkGrid& grid);
 
-// `tiles` are the kMarkTiles tiles of a sample for a tip of that radius; each line can be measured.
-WrittenLines written_lines(std::span<const scene::MarkTile> tiles, double tip_radius_m, const LinesToWrite& lines);
+// `tiles` are the kMarkTiles tiles of that grid; each line can be measured.
+WrittenLines written_lines(std::span<const scene::MarkTile> tiles, const MarkGrid& grid, const LinesToWrite& lines);
 
 // First fault in the order of the enumerators; empty if the lines are done.
 std::optional<WritingFault> fault_of(const WrittenLines& written, const LinesToWrite& lines);

@@ -212,15 +212,15 @@ double HeapContacts::pair_change(std::size_t p, const Step& step) noexcept {
   const Pair& pair = pairs_[p];
   const bool stays = pair.second == kMostActive;
   const Body& first = bodies_[pair.first];
-  const Nearest was = nearest_of(pair, first.outline(first.place()), second_of(pair));
   const Nearest now = nearest_of(pair, first.outline(place_of(pair.first, step)),
                                  stays ? pair.stays : bodies_[pair.second].outline(place_of(pair.second, step)));
-  const Flat &a0 = was.first, &b0 = was.second, &a1 = now.first, &b1 = now.second;
+  const Flat &a1 = now.first, &b1 = now.second;
   const double apart0 = apart_m_[p], apart1 = apart_then_m_[p] = distance_between(a1, b1);
   const double depth0 = std::max(0.0, pair.distance_m - apart0), depth1 = std::max(0.0, pair.distance_m - apart1);
   if (!(depth0 + depth1 > 0.0)) return 0.0;
   double change = depth1 - depth0;
   if (depth0 > 0.0 && depth1 > 0.0) {
+    const auto [a0, b0] = nearest_of(pair, first.outline(first.place()), second_of(pair));
     const double dx = (a1.x - a0.x) - (b1.x - b0.x), dy = (a1.y - a0.y) - (b1.y - b0.y);
     const double squares = dx * ((a1.x - b1.x) + (a0.x - b0.x)) + dy * ((a1.y - b1.y) + (a0.y - b0.y));
     change = -squares / (apart0 + apart1);

@@ -122,6 +122,12 @@ class HeapContacts {
   Normal normal_of(std::size_t body) const noexcept;  // contact with the tip; negative overlap if the tip is not near
   Touch touch_of(std::size_t pair) const noexcept;
 
+  // The same as Normal::acts, and as an overlap of Touch above 0, without directions.
+  bool tip_acts(std::size_t body) const noexcept { return bodies_[body].near_tip && acts(body, tips_[body]); }
+  bool touches(std::size_t pair) const noexcept {
+    return apart_m_[pair] > 0.0 && pairs_[pair].distance_m - apart_m_[pair] > 0.0;
+  }
+
   // Contacts after the step whose change was computed last. Valid only for the bodies that it moves.
   bool touches_then(std::size_t pair) const noexcept { return apart_then_m_[pair] < pairs_[pair].distance_m; }
   bool tip_acts_then(std::size_t body) const noexcept { return acts(body, tips_then_[body]); }

@@ -49,10 +49,10 @@ class Descent {
   void propose(Step& step, const Move& move, double share) const noexcept;
   bool foresee(const Step& step, bool foreseen) noexcept;
   bool tip_counts(std::size_t i, bool foreseen) const noexcept {
-    return foreseen ? tip_foreseen_[i] : heap_.normal_of(i).acts;
+    return foreseen ? tip_foreseen_[i] : heap_.tip_acts(i);
   }
   bool pair_counts(std::size_t p, bool foreseen) const noexcept {
-    return foreseen ? pair_foreseen_[p] : heap_.touch_of(p).overlap_m > 0.0;
+    return foreseen ? pair_foreseen_[p] : heap_.touches(p);
   }
   bool within_reach(const Step& step) const noexcept;
   double farthest(const Step& step) const noexcept;
@@ -91,8 +91,8 @@ Flat Descent::pull_on(std::size_t i, double& spring) const noexcept {
     spring += k_n;
   }
   for (const std::size_t p : heap_.pairs_of(i)) {
+    if (!heap_.touches(p)) continue;
     const Touch touch = heap_.touch_of(p);
-    if (!(touch.overlap_m > 0.0)) continue;
     const double push = (heap_.pair(p).first == i ? k_n : -k_n) * touch.overlap_m;
     force.x += push * touch.u[0];
     force.y += push * touch.u[1];
@@ -156,9 +156,9 @@ bool Descent::settle_rod(std::size_t i) noexcept {
 }
 
 bool Descent::touches(std::size_t i) const noexcept {
-  if (heap_.normal_of(i).acts) return true;
+  if (heap_.tip_acts(i)) return true;
   const auto pairs = heap_.pairs_of(i);
-  return std::any_of(pairs.begin(), pairs.end(), [this](std::size_t p) { return heap_.touch_of(p).overlap_m > 0.0; });
+  return std::any_of(pairs.begin(), pairs.end(), [this](std::size_t p) { return heap_.touches(p); });
 }
 
 bool Descent::sweep() noexcept {

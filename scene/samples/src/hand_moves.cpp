@@ -3,7 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
+
 #include "physics/contact_parameters.h"
+#include "physics/manipulation/half_turn.h"
+#include "physics/manipulation/tip_contact.h"
 #include "physics/quantity_text.h"
 #include "scene/samples/hand_script.h"
 
@@ -17,6 +22,7 @@ constexpr physics::Velocity kSlowestHand{1e-11}, kFastestHand{1e-4};
 constexpr physics::Time kLongestWait{3600.0};
 constexpr Length kLeastSweep{1e-10};  // smallest width and spacing of lines
 constexpr double kMostLines = 10'000.0;
+constexpr double kTouching = 1e-6;  // overlap that is a touch, in radii
 
 template <class Q, class Units>
 Q within(const TomlTable& table, std::string_view key, const Units& units, Q least, Q most) {
@@ -40,6 +46,18 @@ void read_sweep(const TomlTable& table, const physics::LeverBase& from, HandMove
   if (lines > kMostLines) {
     table.refuse("line_spacing", fmt::format("the sweep has {:.0f} lines, {:.0f} at most", lines, kMostLines));
   }
+}
+
+// Distance of the axes of a tip above that place and a particle, in which they touch like a tip and a sphere.
+Length distance_to(const physics::PlacedParticle& particle, const physics::ParticleSpecies& species,
+                   const physics::Sideways<Length>& place) {
+  const physics::HalfTurn turn = physics::half_turn(particle.angle_rad);
+  const double cosine = turn.w * turn.w - turn.z * turn.z, sine = 2.0 * turn.w * turn.z;
+  const physics::Sideways<Length> from = place - particle.position;
+  const Length half = 0.5 * species.length;
+  const Length along = std::clamp(cosine * from.x + sine * from.y, -half, half);
+  const Length away = physics::magnitude(from - physics::Sideways<Length>{cosine * along, sine * along});
+  return std::max(Length(0.0), away - physics::core_radius(species));
 }
 
 }  // namespace
@@ -67,6 +85,19 @@ HandMove read_move(const TomlTable& table, const physics::LeverBase& from, bool 
   read_sweep(table, from, move);
   if (table.has("wait")) move.wait = within(table, "wait", physics::kTimeUnits, physics::Time(0.0), kLongestWait);
   return move;
+}
+
+void check_start(const TomlTable& start, const ParticleSet& set) {
+  for (std::size_t i = 0; i < set.particles.size(); ++i) {
+    const physics::ParticleSpecies& species = set.setup.species[set.particles[i].species];
+    const Length radius = species.contact.tip_radius;
+    const Length touching =
+        physics::touching_height(set.setup.tip, radius, distance_to(set.particles[i], species, set.start.position));
+    if (set.start.z >= touching - kTouching * radius) continue;
+    start.refuse("z", fmt::format("the tip would be inside particle {}, which it touches at {} there: start higher, or "
+                                  "beside it",
+                                  i + 1, physics::format_quantity(touching, physics::kLengthUnits, 3)));
+  }
 }
 
 }  // namespace afm::scene

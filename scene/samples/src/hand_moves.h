@@ -19,4 +19,7 @@ physics::LeverBase base(const TomlTable& table);
 // Reads a [[move]] that begins at a place; on a soft sample there are no sweeps and no waits.
 HandMove read_move(const TomlTable& table, const physics::LeverBase& from, bool soft);
 
+// Refuses a start inside a particle, out of which nothing would push the tip.
+void check_start(const TomlTable& start, const ParticleSet& set);
+
 }  // namespace afm::scene

@@ -48,19 +48,6 @@ std::string_view key_of(std::string_view field, std::span<const KeyOfField> keys
   return at == keys.end() ? field : at->key;
 }
 
-// Message with the key of the file instead of the field at its beginning: "particle modulus -1 Pa is not ...".
-std::string message_of(const physics::UnphysicalValue& error, std::string_view key) {
-  const auto in_words = [](std::string_view name) {
-    std::string words(name);
-    std::replace(words.begin(), words.end(), '_', ' ');
-    return words;
-  };
-  std::string message = error.what();
-  const std::string field = in_words(error.field());
-  if (message.starts_with(field + " ")) message.replace(0, field.size(), in_words(key));
-  return message;
-}
-
 // A rod's friction is given per length, and its stiffness limits how long it may be: it is pushed as a rigid body.
 physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) {
   table.allow_only({"name", "radius", "length", "particle_modulus", "friction_per_length", "kinetic_ratio", "ageing"});
@@ -132,6 +119,17 @@ void read_hold(const TomlTable& table, physics::ParticleSpecies& species) {
   species.scatter_seed = static_cast<std::uint16_t>(table.whole("pull_off_seed", 1, kLargestSeed));
 }
 
+// Refuses a law without its own numbers; those of the others are only for the figure beside.
+void refuse_law_without_numbers(const TomlTable& table, const physics::ParticleLawText& law) {
+  using enum physics::ParticleLaw;
+  const auto need = [&](std::string_view key) {
+    if (!table.has(key)) table.refuse(key, fmt::format("is missing; the law {} needs it", law.word));
+  };
+  if (law.law == ContactArea || law.law == Both) need("shear_strength");
+  if (law.law == Amontons || law.law == Both) need("coefficient");
+  if (law.law == Measured) need("measured_threshold");
+}
+
 physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entry) {
   if (table.has("length")) return read_rods(table, entry);
   if (table.has("height")) return read_islands(table, entry);
@@ -142,7 +140,9 @@ physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entr
   entry.name = table.text("name");
   SourcedValues values(table);
   physics::ParticleSpecies species;
-  species.law = table.one_of("law", physics::kParticleLaws, &physics::ParticleLawText::word).law;
+  const physics::ParticleLawText& law = table.one_of("law", physics::kParticleLaws, &physics::ParticleLawText::word);
+  refuse_law_without_numbers(table, law);
+  species.law = law.law;
   const physics::Elasticity particle{values.quantity("particle_modulus", physics::kPressureUnits),
                                      values.number("particle_poisson_ratio")};
   const physics::Elasticity sample{values.quantity("sample_modulus", physics::kPressureUnits),
@@ -364,6 +364,7 @@ ParticleSet read_set(const toml::table& root) {
   const TomlTable start = top.table("start", "[start]");
   start.allow_only({"x", "y", "z"});
   set.start = base(start);
+  check_start(start, set);
   for (const TomlTable& table : top.tables("move", kMostMoves))
     set.moves.push_back(read_move(table, set.moves.empty() ? set.start : set.moves.back().to, set.soft != nullptr));
   if (set.soft) check_soft_moves(top, set);

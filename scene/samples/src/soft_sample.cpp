@@ -54,7 +54,8 @@ void read_marking_lever(const TomlTable& table, std::span<const std::string_view
   try {
     physics::validate_lever(set.setup.springs);
   } catch (const physics::UnphysicalValue& error) {
-    table.refuse(springs.size() > 1 ? std::string(error.field()) : std::string(springs.front()), error.what());
+    const std::string key = springs.size() > 1 ? std::string(error.field()) : std::string(springs.front());
+    table.refuse(key, message_of(error, key));
   }
   add_sources(set, "", values);
 }

@@ -37,4 +37,16 @@ double SourcedValues::number(std::string_view key) {
   return *value;
 }
 
+std::string message_of(const physics::UnphysicalValue& error, std::string_view key) {
+  const auto in_words = [](std::string_view name) {
+    std::string words(name);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+  };
+  std::string message = error.what();
+  const std::string field = in_words(error.field());
+  if (message.starts_with(field + " ")) message.replace(0, field.size(), in_words(key));
+  return message;
+}
+
 }  // namespace afm::scene

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 #include "scene/config/toml_table.h"
 #include "scene/samples/sourced_value.h"
@@ -48,5 +49,9 @@ class SourcedValues {
   const TomlTable& table_;
   std::vector<SourcedValue> sources_;
 };
+
+// Message of a value that physics refuses, with the key of the file in place of the field that it begins with:
+// "particle modulus -1 Pa is not ...".
+std::string message_of(const physics::UnphysicalValue& error, std::string_view key);
 
 }  // namespace afm::scene

@@ -124,6 +124,21 @@ constexpr void for_each_field(Visit&& visit, Record&... map) {
 }
 static_assert(scene::all_fields_described<RecordedMapView>());
 
+// Lines that a lesson has a person write on the sample, in the sample's frame. SI.
+struct RecordedLines {
+  std::vector<std::vector<std::array<double, 2>>> lines_m{};  // corners of each line in order
+  double width_m = 0;
+
+  bool operator==(const RecordedLines&) const = default;
+};
+
+template <class Visit, scene::RecordOf<RecordedLines>... Record>
+constexpr void for_each_field(Visit&& visit, Record&... lines) {
+  visit("lines_m", lines.lines_m...);
+  visit("width_m", lines.width_m...);
+}
+static_assert(scene::all_fields_described<RecordedLines>());
+
 // State of the wall in one frame. Together with the servo's tick at the same time, it determines the picture. Names are
 // those of the files and the command line; empty: none.
 struct WallFrame {
@@ -150,6 +165,7 @@ struct WallFrame {
   std::optional<bool> false_colours{};   // true: heights in false colours; absent from older files
   std::optional<bool> stroboscope{};     // true: slowed-down swing of a tapping lever; absent from older files
   std::optional<RecordedMapView> map{};  // map that is felt whole below the tip; absent from older files
+  std::optional<RecordedLines> lines{};  // lines to be written; absent from older files
 
   bool operator==(const WallFrame&) const = default;
 };
@@ -179,6 +195,7 @@ constexpr void for_each_field(Visit&& visit, Record&... frame) {
   visit("false_colours", frame.false_colours...);
   visit("stroboscope", frame.stroboscope...);
   visit("map", frame.map...);
+  visit("lines", frame.lines...);
 }
 static_assert(scene::all_fields_described<WallFrame>());
 

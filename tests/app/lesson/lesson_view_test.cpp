@@ -19,6 +19,7 @@
 #include "exhibit/frame/frame_builder.h"
 #include "exhibit/lesson/lesson_panel.h"
 #include "render/image_file.h"
+#include "servo/session_file.h"
 #include "support/live_program.h"
 #include "support/places.h"
 #include "support/run_program.h"
@@ -198,6 +199,41 @@ TEST_F(LessonView, LaysTheVariantsOfAThresholdAndHidesWhatABlindStepAsksFor) {
   const std::string events = core::read_file(out + "/sub-QXWEAC/beh/sub-QXWEAC_task-alesson_events.tsv").value();
   EXPECT_THAT(events, HasSubstr("\tharder\tthreshold\tn/a\t0\t1\t0.5\tsecond\tsecond\t1\t"));
   EXPECT_THAT(events, HasSubstr("\tblind\tidentify\tn/a\t0\t1\tn/a\tsi3n4\tsi3n4\t1\t"));
+}
+
+TEST_F(LessonView, KeepsTheLinesToBeWrittenInItsSession) {
+  const std::string file = folder_.write(
+      "write.toml",
+      "id = \"write\"\ntitle = { en = \"Write\", de = \"Schreiben\" }\nminutes = 5\nmaterials = [\"mica\"]\n"
+      "particles = \"scratch-pmma\"\n[[step]]\nid = \"letter\"\ntype = \"write\"\n"
+      "lines = [[\"-80 nm, 80 nm\", \"80 nm, 80 nm\"], [\"0 nm, 80 nm\", \"0 nm, -80 nm\"]]\nwidth = \"20 nm\"\n" +
+          words("letter"));
+  const std::string out = folder_.file("study");
+  support::LiveProgram view(command(file, {"--participant", "QXWERT", "--out", out}), display_.name());
+  ASSERT_TRUE(view.says("Do you take part?")) << view.said();
+  key("1");
+  ASSERT_TRUE(view.says("Words of letter")) << view.said();
+  ASSERT_TRUE(view.says("force on")) << view.said();
+  key("Escape");
+  EXPECT_EQ(view.ends(), 0) << view.said();
+  auto session = servo::load_session(out + "/sub-QXWERT/task-write_session/session-mica.afms");
+  ASSERT_TRUE(session) << session.error().message;
+  ASSERT_FALSE(session->wall.empty());
+  const auto draw = [&](const std::string& name) {
+    EXPECT_TRUE(servo::save_session(*session, folder_.file(name + ".afms")));
+    const auto drawn = support::run_program(support::touchafm() + " render --session " + folder_.file(name + ".afms") +
+                                            " --at 0.5 --size 320x240 --out " + folder_.file(name + ".png"));
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    return core::read_file(folder_.file(name + ".png")).value_or("");
+  };
+  const std::string with = draw("with");
+  for (servo::WallFrame& frame : session->wall) {
+    ASSERT_TRUE(frame.lines);
+    EXPECT_EQ(frame.lines->width_m, 20e-9);
+    EXPECT_EQ(frame.lines->lines_m.size(), 2U);
+    frame.lines.reset();
+  }
+  EXPECT_NE(with, draw("without")) << "they are drawn";
 }
 
 }  // namespace lesson_view_test

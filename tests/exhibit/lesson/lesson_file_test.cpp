@@ -48,6 +48,7 @@ TEST_P(LessonFile, IsRefusedByLineAndKey) {
 const std::string kFit = "scale = \"fit\"\n", kCommon = "scale = \"common\"\n";
 const std::string kGold = "particles = \"gold-row\"\n", kPush = "type = \"push\"\n";
 const std::string kSoft = "particles = \"scratch-pmma\"\n", kWrite = "type = \"write\"\n";
+const std::string kInk = "particles = \"write-ink\"\n";
 const std::string kWidth = "width = \"20 nm\"\n";
 const std::string kTapping = "[tapping]\nfree_amplitude = \"20 nm\"\n";
 const std::string kThreshold = "type = \"threshold\"\nmaterial = \"mica\"\nstaircase = \"weighted\"\n";
@@ -103,10 +104,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{kHead + "particles = \"gold-heap\"\n", "line 5: particles: "},
         Refusal{kHead + "particles = \"tube-and-electrodes\"\n",
                 "line 5: particles: tube-and-electrodes has rods or islands"},
-        Refusal{kHead + "particles = \"write-ink\"\n", "line 5: particles: write-ink has ink; a lesson takes spheres"},
+        Refusal{kHead + kInk + step(kPush + "until = \"pattern\"\n"),
+                "step.type: push needs particles, and write-ink has ink"},
+        Refusal{kHead + kInk +
+                    step("type = \"write\"\nlines = [[\"-400 nm, 0 nm\", \"400 nm, 0 nm\"]]\nwidth = \"20 nm\"\n"),
+                "step.width: must lie between 41.5 nm and 166 nm, a quarter of the dot"},
         Refusal{kHead + kSoft + step(kPush + "until = \"pattern\"\n"),
                 "line 9: step.type: push needs particles, and scratch-pmma has a soft sample: use write"},
-        Refusal{kHead + kGold + step(kWrite), "line 9: step.type: write needs a soft sample: particles = "},
+        Refusal{kHead + kGold + step(kWrite), "line 9: step.type: write needs a soft sample or ink: particles = "},
         Refusal{kHead + kFit + step(kWrite), "line 9: step.type: write needs a soft sample"},
         Refusal{kHead + kSoft + step("type = \"cycle\"\n"),
                 "line 9: step.type: cycle is for lessons without particles"},

@@ -15,6 +15,7 @@
 
 namespace afm::exhibit {
 
+struct LinesToWrite;
 struct ScanProgress;
 
 // The live wall at one moment, for a session. `materials` are the names of those on the wall. The caller adds the
@@ -23,6 +24,10 @@ servo::WallFrame wall_frame_of(const Moment& moment, std::int64_t time_ns, std::
 
 // The scan of a frame, which must have WallFrame::scan. The result may be invalid: check it with LiveScan::valid().
 ScanProgress scan_progress_of(const servo::WallFrame& frame);
+
+// Conversion of lines to be written between the program's form and that of sessions.
+servo::RecordedLines recorded_lines(const LinesToWrite& lines);
+LinesToWrite lines_of(const servo::RecordedLines& recorded);
 
 // Conversion of a head between the program's form and that of messages and sessions.
 scene::Pose pose_of(const scene::HeadPose& head);
