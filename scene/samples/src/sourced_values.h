@@ -50,7 +50,7 @@ class SourcedValues {
   std::vector<SourcedValue> sources_;
 };
 
-// Message of a value that physics refuses, with the key of the file in place of the field that it begins with:
+// Message of a value that physics refuses, with the key of the file instead of the field at its beginning:
 // "particle modulus -1 Pa is not ...".
 std::string message_of(const physics::UnphysicalValue& error, std::string_view key);
 
