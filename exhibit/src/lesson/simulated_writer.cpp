@@ -47,7 +47,7 @@ class WritingHand final : public SimulatedHand {
 void WritingHand::attempt(const LessonPrompt& prompt) {
   if (std::exchange(begun_, prompt.task + 1) == prompt.task + 1 && tried_) put_back();
   tried_ = true;
-  if (set().ink) {  // which the speed makes wide or narrow, at any load
+  if (set().ink) {  // width by the speed, at any load
     draw_m_per_s_ = m_per_m() * physics::inked_area(set().ink->ink, physics::Time(1.0)).si / prompt.lines->width_m;
   } else {
     // half of the contact bears a tip that is dragged: 2 F = pi H (w/2)^2
