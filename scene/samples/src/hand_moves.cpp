@@ -88,12 +88,13 @@ HandMove read_move(const TomlTable& table, const physics::LeverBase& from, bool 
 }
 
 void check_start(const TomlTable& start, const ParticleSet& set) {
+  const Length tip_z = std::max(set.start.z, Length());  // height of the tip; the sample holds it if the base is lower
   for (std::size_t i = 0; i < set.particles.size(); ++i) {
     const physics::ParticleSpecies& species = set.setup.species[set.particles[i].species];
     const Length radius = species.contact.tip_radius;
     const Length touching =
         physics::touching_height(set.setup.tip, radius, distance_to(set.particles[i], species, set.start.position));
-    if (set.start.z >= touching - kTouching * radius) continue;
+    if (tip_z >= touching - kTouching * radius) continue;
     start.refuse("z", fmt::format("the tip would be inside particle {}, which it touches at {} there: start higher, or "
                                   "beside it",
                                   i + 1, physics::format_quantity(touching, physics::kLengthUnits, 3)));
