@@ -226,7 +226,7 @@ Option& Option::existing_folder() {
 }
 
 Option& Option::or_included_in(const std::string& folder) {
-  option_->transform([option = option_, folder](const std::string& name) {
+  option_->transform([folder](const std::string& name) {
     namespace fs = std::filesystem;
     std::error_code ignored;
     if (name.find('/') != std::string::npos || fs::exists(name, ignored)) return name;
@@ -239,9 +239,8 @@ Option& Option::or_included_in(const std::string& folder) {
     }
     if (name.find('.') != std::string::npos || known.empty()) return name;
     std::sort(known.begin(), known.end());
-    throw CLI::ValidationError(option->get_name(), fmt::format("\"{}\" is neither a file nor included; choose {}, or "
-                                                               "give the path of a file",
-                                                               name, fmt::join(known, ", ")));
+    throw CLI::ValidationError(fmt::format(
+        "\"{}\" is neither a file nor included; choose {}, or give the path of a file", name, fmt::join(known, ", ")));
   });
   return *this;
 }

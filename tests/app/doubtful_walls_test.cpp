@@ -112,7 +112,8 @@ TEST(IncludedWalls, AreGivenByNameUnlessThereIsSuchAFile) {
   EXPECT_THAT(wall_in_folder("cove.toml").err, HasSubstr("wall file cove.toml: cannot be read: there is no such file"));
   const ProgramResult misspelt = wall_in_folder("cove");
   EXPECT_EQ(misspelt.exit_code, 2);
-  EXPECT_THAT(misspelt.err, HasSubstr("\"cove\" is neither a file nor included; choose 3d-tv, blended, cave,"));
+  EXPECT_THAT(misspelt.err,
+              HasSubstr("error: file: \"cove\" is neither a file nor included; choose 3d-tv, blended, cave,"));
   folder.write("cave", "[[screen]]\n");
   EXPECT_THAT(wall_in_folder("cave").err, HasSubstr("wall file cave: line 1: screen.name"));
   const ProgramResult lesson = support::run_program("cd " + folder.path() + " && " + support::touchafm() +
