@@ -37,7 +37,7 @@ core::Result<ContactOptions> driven_contact(const TappingChoice& choice, Contact
   std::string& work = contact.values["work-of-adhesion"];
   if (!work.empty() || contact.si_values.contains("work-of-adhesion"))
     return wrong_usage("--contact-gap and --work-of-adhesion exclude each other; remove one");
-  work = "1mJ/m2";  // placeholder until the Hamaker constant is known
+  work = "1mJ/m2";  // value that driven_setup() replaces once the Hamaker constant is known
   return contact;
 }
 
