@@ -23,6 +23,7 @@
 #include <thread>
 #include <vector>
 
+#include "haply_hand.h"
 #include "haptics/devices/haply_service.h"
 #include "live_renderer.h"
 #include "servo/servo_client.h"
@@ -157,7 +158,10 @@ class Chain {
     EXPECT_EQ(::write(port_in_, &port, sizeof port), ssize_t{sizeof port});
     ::close(port_in_);
     eventually([&] { return (servo_ = child_of(renderer_)) > 0 && (watchdog_ = child_of(servo_)) > 0; });
-    attached_ = haply_ ? attach() : eventually([&] { return renderer_holds() || !renderer_lives(); });
+    attached_ = eventually([&] {
+      if (!renderer_lives() || ended(servo_)) return true;
+      return haply_ ? attach(service_, side_, [] {}) : renderer_holds();
+    });
   }
   Chain(const Chain&) = delete;
   Chain& operator=(const Chain&) = delete;
@@ -179,10 +183,7 @@ class Chain {
 
   // Force at the device: as the service holds it; of the simulated hand, as long as its servo lives.
   double force_n() {
-    if (haply_) {
-      const auto forces = service_.forces();
-      return forces.empty() ? 0.0 : std::hypot(forces.back().x, forces.back().y, forces.back().z);
-    }
+    if (haply_) return force_at(service_);
     while (::waitpid(-1, nullptr, WNOHANG) > 0) {
     }
     if (ended(servo_)) return 0.0;
@@ -235,30 +236,6 @@ class Chain {
   bool renderer_holds() {
     const auto state = side_.tip_state();
     return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
-  }
-
-  // The paper's procedure, by a hand at 0.1 m/s, until the pull of the sample is on it.
-  bool attach() {
-    const auto move_to = [&](double up_m) {
-      constexpr double kStepM = 0.1 * 0.002;
-      for (double here_m = service_.up_m; here_m != up_m; service_.up_m = here_m) {
-        here_m = here_m < up_m ? std::min(here_m + kStepM, up_m) : std::max(here_m - kStepM, up_m);
-        wait_a_little();
-      }
-    };
-    return eventually([&] {
-      if (!renderer_lives() || ended(servo_)) return true;
-      move_to(0.19);
-      std::this_thread::sleep_for(milliseconds(300));
-      for (const bool pressed : {true, false}) {
-        service_.button = pressed;
-        std::this_thread::sleep_for(milliseconds(300));
-      }
-      std::this_thread::sleep_for(milliseconds(700));
-      move_to(0.105);
-      move_to(0.14);
-      return renderer_holds() && force_n() > 0.3;
-    });
   }
 
   bool haply_;

@@ -82,13 +82,10 @@ class LiveRenderer {
   bool hold_attached(bool dead_man = false) {
     side_.store(scene::Selection{.material = kMica, .revision = 1});
     return eventually([this, dead_man] {
-      if (!move(0.060, 0.4)) return false;
-      const auto lifted_ns = now_ns();
-      until([&](const scene::TipState&) { return now_ns() - lifted_ns > 200'000'000; });
-      if (!move(0.060, 0.3, true) || !move(0.060, 0.5, dead_man) || !move(-0.010, 0.4, dead_man) ||
-          !move(0.025, 0.4, dead_man)) {
-        return false;
-      }
+      if (!move(0.060, 0.3) || !move(0.060, 0.1, true)) return false;
+      aim(0.060, 0.1, dead_man);
+      until([](const scene::TipState& state) { return state.servo_state != scene::ServoState::Arming; });
+      if (!move(-0.010, 0.3, dead_man) || !move(0.025, 0.25, dead_man)) return false;
       until([this](const scene::TipState& state) {
         return holds() || state.servo_state == scene::ServoState::Disarmed ||
                state.servo_state == scene::ServoState::Fault;

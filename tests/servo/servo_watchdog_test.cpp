@@ -22,6 +22,7 @@
 #include <string_view>
 #include <thread>
 
+#include "haply_hand.h"
 #include "haptics/devices/haply_service.h"
 #include "live_renderer.h"
 #include "servo/servo_client.h"
@@ -75,15 +76,6 @@ class ServoWatchdog : public testing::Test {
   ServoWatchdog() { ::setenv("TOUCHAFM_HAPLY_PORT", std::to_string(service.port()).c_str(), 1); }
   ~ServoWatchdog() override { ::unsetenv("TOUCHAFM_HAPLY_PORT"); }
 
-  // The hand moves at 0.1 m/s, slower than any limit.
-  void move_to(double up_m) {
-    constexpr double kStepM = 0.1 * 0.002;
-    for (double here_m = service.up_m; here_m != up_m; service.up_m = here_m) {
-      here_m = here_m < up_m ? std::min(here_m + kStepM, up_m) : std::max(here_m - kStepM, up_m);
-      renderer.beat();
-      wait_a_little();
-    }
-  }
   void rest(milliseconds time) {
     const auto end = std::chrono::steady_clock::now() + time;
     renderer.until([&](const scene::TipState&) { return std::chrono::steady_clock::now() > end; });
@@ -94,26 +86,11 @@ class ServoWatchdog : public testing::Test {
     side.store(scene::Selection{.material = kMica, .revision = 1});
     return eventually([&] {
       if (!servo->alive()) start_servo();  // the machine was stopped for longer than the watchdog waits
-      move_to(0.19);
-      rest(milliseconds(300));
-      for (const bool pressed : {true, false}) {
-        service.button = pressed;
-        rest(milliseconds(300));
-      }
-      rest(milliseconds(700));
-      move_to(0.105);
-      move_to(0.14);
-      return held_n() > 0.3 && renderer.holds();
+      return attach(service, side, [&] { renderer.beat(); });
     });
   }
 
-  // Newest force that the service received.
-  double held_n() {
-    const auto forces = service.forces();
-    if (forces.empty()) return 0.0;
-    const HaplyService::Force& force = forces.back();
-    return std::hypot(force.x, force.y, force.z);
-  }
+  double held_n() const { return force_at(service); }
 
   // A window for expect_within: the force is on, `number` goes to `process`, and `condition` is waited for.
   support::Timed timed_signal(const pid_t& process, int number, const std::function<bool()>& condition) {
