@@ -135,10 +135,16 @@ std::string bootstrap_cells(const fits::ElasticFit& fit) {
 // Publication of the law, and the program.
 std::string origin(fits::Shape shape) { return fmt::format("{}\t{}", fits::row_of(shape).meaning, core::written_by()); }
 
+// Path of a file as a cell. A spreadsheet would compute a name that begins like a formula, also within quotes.
+std::string path_cell(const std::string& file) {
+  const bool is_formula = !file.empty() && std::string_view("=+-@\"").find(file.front()) != std::string_view::npos;
+  return (is_formula ? "./" : "") + core::printable_line(file);
+}
+
 // Cells that all rows of a file have in common.
 struct FileCells {
   FileCells(const std::string& file, const curves::FitOptions& options)
-      : name(core::printable_line(file)), sizes_of_fit(sizes(options)) {}
+      : name(path_cell(file)), sizes_of_fit(sizes(options)) {}
 
   std::string name, sizes_of_fit;
 };
@@ -163,6 +169,15 @@ std::string row_of(const FileCells& file, std::size_t index, const curves::Fitte
                      bootstrap_cells(fit), origin(fit.shape));
 }
 
+core::Result<void> add_to_table(int table, const std::string& path, std::string_view text) {
+  if (const int error = core::write_all(table, text); error != 0) {
+    return core::failure(core::ErrorCategory::Failed,
+                         fmt::format("cannot write {}: {}", path, core::system_error(error)));
+  }
+  return {};
+}
+
+// A table with its heading. A disk without room for that keeps no empty table, which would refuse the next try.
 core::Result<core::FileDescriptor> new_table(const std::string& folder, const std::string& path) {
   std::error_code error, unknown;
   std::filesystem::create_directories(folder, error);
@@ -176,7 +191,12 @@ core::Result<core::FileDescriptor> new_table(const std::string& folder, const st
     return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, name));
   }
   core::FileDescriptor table(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
-  if (table.is_open()) return table;
+  if (table.is_open()) {
+    const auto written = add_to_table(table.get(), path, kColumns);
+    if (written) return table;
+    std::filesystem::remove(path, error);
+    return tl::unexpected(written.error());
+  }
   if (errno == EEXIST) {
     return core::wrong_usage(fmt::format("--out {}: it has a {} already; name another folder", folder, kTable));
   }
@@ -232,14 +252,6 @@ core::Result<void> write_page(const AnalyseOptions& options, const Summary& summ
   return core::write_file((folder / kPage).string(), page.html(results, map_texts(options.fit), histograms));
 }
 
-core::Result<void> add_to_table(int table, const std::string& path, std::string_view text) {
-  if (const int error = core::write_all(table, text); error != 0) {
-    return core::failure(core::ErrorCategory::Failed,
-                         fmt::format("cannot write {}: {}", path, core::system_error(error)));
-  }
-  return {};
-}
-
 // Logs the progress once a second.
 class Progress {
  public:
@@ -268,7 +280,6 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   auto table = new_table(options.out, path);
   if (!table) return tl::unexpected(table.error());
   const auto write = [&](const std::string& text) { return add_to_table(table->get(), path, text); };
-  if (const auto written = write(kColumns); !written) return written;
   const core::OrderlyEnd by_itself;
   Summary summary;
   FitPage page;

@@ -166,8 +166,9 @@ void add_doctor_command(OptionList& program, const CommandContext& context) {
   const auto cluster = std::make_shared<ClusterCheck>();
   const Option wall = command
                           .add_option("--cluster", cluster->wall,
-                                      "check the machines of this wall file instead, each of which runs touchafm "
-                                      "node; exit code 1 if one does not show its part")
+                                      "check the machines of this wall file (or included wall) instead, each of "
+                                      "which runs touchafm node; exit code 1 if one does not show its part")
+                          .or_included_in(context.assets_dir + "/walls")
                           .type_name("FILE");
   add_network_options(command, cluster->cluster);
   command.add_option("--patience", cluster->seconds, "with --cluster, time for the machines to answer, s")

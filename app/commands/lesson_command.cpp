@@ -48,7 +48,8 @@ core::Result<void> check_usage(const LessonOptions& options) {
     }
     return {};
   }
-  if (options.lesson.empty()) return core::wrong_usage("a lesson file is missing: touchafm lesson FILE, or --withdraw");
+  if (options.lesson.empty())
+    return core::wrong_usage("no lesson is named: touchafm lesson first-touch, or another name or file");
   const bool simulated = options.participant.starts_with(kSimulated);
   if (!simulated && !options.participant.empty() && !exhibit::is_participant_code(options.participant)) {
     return core::wrong_usage(

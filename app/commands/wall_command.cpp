@@ -195,7 +195,10 @@ void explain_composition(const scene::Wall& wall, const scene::HeadPose& head) {
   const exhibit::WallShape shape = exhibit::wall_shape(stage);
   constexpr auto kPanels = std::to_array({"next to the instrument", "below the shelf", "on the side screens"});
   static_assert(kPanels.size() == core::kEnumerators<exhibit::Arrangement>.size());
-  std::printf("composition: scene on screen %s, panels %s\n", stage.main.name.c_str(),
+  // tiles of one plane count as one screen, whose name is not in the file
+  const bool is_one = std::any_of(wall.screens.begin(), wall.screens.end(),
+                                  [&](const scene::Screen& screen) { return screen.name == stage.main.name; });
+  std::printf("composition: scene on %s%s, panels %s\n", is_one ? "screen " : "", stage.main.name.c_str(),
               kPanels[static_cast<std::size_t>(shape.arrangement)]);
   // A line of the smallest text is 30 mm high on the paper's wall; a capital of Inter has 0.60 of its line.
   constexpr double kSmallestCapitalM = 0.018;

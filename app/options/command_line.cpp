@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/options/nearest_word.h"
 #include "app/options/usage_errors.h"
 #include "app/options/written_files.h"
 #include "core/whole_file.h"
@@ -168,6 +169,14 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
+// True for "cove.toml", which is nearly "cave.toml"; not for "wall.toml", which is only a part of "powerwall.toml".
+bool is_misspelt(const std::string& name, const std::vector<std::string>& known) {
+  const std::filesystem::path file(name);
+  if (file.extension() != ".toml") return false;
+  const std::string stem = file.stem().string(), nearest = nearest_word(stem, known);
+  return !nearest.empty() && nearest.find(stem) == std::string::npos;
+}
+
 }  // namespace
 
 Option& Option::type_name(const std::string& name) {
@@ -237,7 +246,7 @@ Option& Option::or_included_in(const std::string& folder) {
       if (name == file.filename() || name == file.stem()) return file.string();
       known.push_back(file.stem().string());
     }
-    if (name.find('.') != std::string::npos || known.empty()) return name;
+    if (known.empty() || (name.find('.') != std::string::npos && !is_misspelt(name, known))) return name;
     std::sort(known.begin(), known.end());
     throw CLI::ValidationError(fmt::format(
         "\"{}\" is neither a file nor included; choose {}, or give the path of a file", name, fmt::join(known, ", ")));

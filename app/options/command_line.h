@@ -42,7 +42,8 @@ class Option {
   Option& one_of(const std::vector<std::string>& words);
   Option& existing_folder();
   // A name without a folder that is no file of the current folder may be that of a TOML file in `folder`, with or
-  // without its extension. WrongUsage, with all names, if it has no extension and none fits.
+  // without its extension. WrongUsage, with all names, if none fits and it has no extension or looks like a misspelt
+  // name.
   Option& or_included_in(const std::string& folder);
   Option& writable_file();  // checked early, so that no result is lost after long work
 

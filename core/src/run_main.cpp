@@ -2,7 +2,10 @@
 #include "core/run_main.h"
 
 #include <fcntl.h>
+#include <pthread.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <exception>
 #include <new>
@@ -54,11 +57,33 @@ void take_standard_descriptors() {
   }
 }
 
+// Raises a low limit of the stack (ulimit -s) as far as allowed, for this thread and new ones; for the latter glibc
+// uses the limit at the start. Returns whether it suffices: drivers that draw need more than 1 MiB, and a program
+// without stack ends by SIGSEGV, without a word.
+bool has_enough_stack() {
+  constexpr rlim_t kUsual = rlim_t{8} << 20U, kLeast = rlim_t{2} << 20U;
+  rlimit stack{};
+  if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= kUsual) return true;
+  const rlim_t raised = std::min(kUsual, stack.rlim_max);
+  if (raised <= stack.rlim_cur) return stack.rlim_cur >= kLeast;
+  stack.rlim_cur = raised;
+  if (::setrlimit(RLIMIT_STACK, &stack) != 0) return false;
+  pthread_attr_t attributes;
+  if (::pthread_attr_init(&attributes) != 0) return false;
+  ::pthread_attr_setstacksize(&attributes, raised);
+  const bool set = ::pthread_setattr_default_np(&attributes) == 0;
+  ::pthread_attr_destroy(&attributes);
+  return set && raised >= kLeast;
+}
+
 }  // namespace
 
 int run_main(const std::function<int()>& run) noexcept {
   take_standard_descriptors();
   std::set_terminate(end_in_good_order);
+  if (!has_enough_stack()) {
+    return fail(ExitCode::RunFailed, "the stack is limited to less than 2 MiB: raise the limit (ulimit -s 8192)");
+  }
   return report_exceptions([&] {
     take_interruptions();
     return run();

@@ -21,6 +21,7 @@ constexpr int kPatienceMs = 10;
 constexpr int kMostPacketsAPoll = 256;
 constexpr std::size_t kLongestPacket = 65'536;
 constexpr std::int64_t kSilenceNs = 250'000'000;
+constexpr std::uint32_t kMostLost = 10'000;  // more than any tracker sends before it counts as silent
 
 // Joins the group on every network of this machine, since the tracker's is often not the one of the default route.
 bool join_everywhere(int socket, in_addr group) {
@@ -126,7 +127,9 @@ bool DtrackSource::receive(int patience_ms) {
   return true;
 }
 
+// A longer step is that of a tracker that was restarted, or of two that send to one port.
 void DtrackSource::count_lost(std::uint32_t step) {
+  if (step > kMostLost) return;
   if (frame_step_ == 0 || step < frame_step_) frame_step_ = step;
   now_.lost_frames += step / frame_step_ - 1;
 }

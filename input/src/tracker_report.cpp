@@ -10,6 +10,8 @@ namespace afm::input {
 
 namespace {
 
+constexpr double kManyOld = 0.1;  // late or repeated packets as a share of the received ones
+
 // Text with the counts of `now` since `before`.
 std::string losses(const DtrackUpdate& now, const DtrackUpdate& before) {
   const std::uint64_t left_out = now.left_out - before.left_out;
@@ -89,6 +91,10 @@ std::optional<std::string> TrackerReport::new_losses(std::int64_t now_ns) {
   if (sum(now_) > sum(reported_)) {
     line = fmt::format("tracker: in {:.0f} s: {}", 1e-9 * static_cast<double>(now_ns - reported_ns_),
                        losses(now_, reported_));
+    const std::uint64_t good = now_.good_packets - reported_.good_packets,
+                        old = now_.old_packets - reported_.old_packets;
+    if (static_cast<double>(old) > kManyOld * static_cast<double>(good))
+      *line += fmt::format("; check that only one tracker sends, and once, to {}", place_);
   }
   reported_ = now_;
   reported_ns_ = now_ns;

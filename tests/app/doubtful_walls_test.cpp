@@ -100,6 +100,15 @@ TEST(WallCommand, SaysHowHighACapitalIs) {
   EXPECT_THAT(result.out, HasSubstr("the smallest capital letters are 18.0 mm high, 25 arc minutes"));
 }
 
+// Tiles of one plane are one screen, which has no name in the file.
+TEST(WallCommand, SaysThatTheSceneIsOnAllTiles) {
+  const auto composition = [](const char* name) {
+    return support::run_program(support::touchafm() + " wall " + name).out;
+  };
+  EXPECT_THAT(composition("tiled-2x2"), HasSubstr("composition: scene on all screens, panels"));
+  EXPECT_THAT(composition("cave"), HasSubstr("composition: scene on screen front, panels"));
+}
+
 // Of an installed program nobody knows the folder of the presets.
 TEST(IncludedWalls, AreGivenByNameUnlessThereIsSuchAFile) {
   const support::ScratchFolder folder;
@@ -109,11 +118,18 @@ TEST(IncludedWalls, AreGivenByNameUnlessThereIsSuchAFile) {
   EXPECT_THAT(wall_in_folder("cave").out, HasSubstr("screen front"));
   EXPECT_THAT(wall_in_folder("cave.toml").out, HasSubstr("screen front"));
   EXPECT_EQ(wall_in_folder("./cave.toml").exit_code, 3);
-  EXPECT_THAT(wall_in_folder("cove.toml").err, HasSubstr("wall file cove.toml: cannot be read: there is no such file"));
+  EXPECT_THAT(wall_in_folder("wall.toml").err, HasSubstr("wall file wall.toml: cannot be read: there is no such file"));
   const ProgramResult misspelt = wall_in_folder("cove");
   EXPECT_EQ(misspelt.exit_code, 2);
   EXPECT_THAT(misspelt.err,
               HasSubstr("error: file: \"cove\" is neither a file nor included; choose 3d-tv, blended, cave,"));
+  const ProgramResult with_ending = wall_in_folder("cove.toml");
+  EXPECT_EQ(with_ending.exit_code, 2);
+  EXPECT_THAT(with_ending.err, HasSubstr("\"cove.toml\" is neither a file nor included; choose 3d-tv, blended, cave,"));
+  EXPECT_EQ(wall_in_folder("./cove.toml").exit_code, 3);
+  const ProgramResult machines =
+      support::run_program(support::touchafm() + " doctor --cluster cave --interface 127.0.0.1");
+  EXPECT_THAT(machines.err, HasSubstr("the wall file names no other machine"));
   folder.write("cave", "[[screen]]\n");
   EXPECT_THAT(wall_in_folder("cave").err, HasSubstr("wall file cave: line 1: screen.name"));
   const ProgramResult lesson = support::run_program("cd " + folder.path() + " && " + support::touchafm() +

@@ -42,6 +42,19 @@ TEST_F(Limits, OfTheSizeOfFilesLeaveNothingPartial) {
   }
 }
 
+// A disk without room keeps no empty table of fits, which would refuse the next try.
+TEST_F(Limits, OfTheSizeOfFilesLeaveNoEmptyTable) {
+  const std::string curve = folder_.file("gel.csv"), fits = folder_.file("fits");
+  const std::string generate =
+      "generate curve --radius 5um --modulus 3kPa --spring-constant 0.05N/m --most-force 1nN --out " + curve;
+  ASSERT_EQ(support::run_program(support::touchafm() + " " + generate).exit_code, 0);
+  const std::string fit = "analyse " + curve + " --fit sphere --radius 5um --out " + fits;
+  EXPECT_EQ(under("-f 0", fit).exit_code, 1);
+  EXPECT_FALSE(std::filesystem::exists(fits + "/fits.tsv"));
+  const auto next = under("-t 60", fit);
+  EXPECT_EQ(next.exit_code, 0) << next.err;
+}
+
 // As ulimit -u does, but for root too: stacks of 4 GB in an address space that has room for two or three, or for none.
 // lavapipe draws with a thread a processor and one more; without them it would never finish.
 TEST_F(Limits, OfThreadsAreSaidBeforeAnythingIsDrawn) {
@@ -50,6 +63,16 @@ TEST_F(Limits, OfThreadsAreSaidBeforeAnythingIsDrawn) {
   expect_one_line(under("-s 4000000 -v 3000000", "wall " + support::source("assets/walls/3d-tv.toml")),
                   "cannot start another thread");
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+}
+
+// Drawing needs more than 1 MiB, and a program without stack ends by SIGSEGV. A soft limit is raised.
+TEST_F(Limits, OfTheStackAreSaidOrRaised) {
+  const std::string draw = "render --journey 4 --size 64x48 --out " + folder_.file("lever.png");
+  expect_one_line(under("-s 512", draw), "the stack is limited to less than 2 MiB");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+  const auto raised = under("-S -s 300", draw);
+  EXPECT_EQ(raised.exit_code, 0) << raised.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_.file("lever.png")));
 }
 
 // Closed descriptors would be those of the next files, which the report and the log would then go into.

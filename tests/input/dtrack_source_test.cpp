@@ -124,6 +124,8 @@ TEST(DtrackSource, CountsTheFramesThatAreMissing) {
   clock.now += 260'000'000;
   EXPECT_EQ(lost_after(900), 2U) << "after a silence the numbers begin anew";
   EXPECT_EQ(lost_after(902), 2U);
+  EXPECT_EQ(lost_after(2'000'000'000), 2U) << "another tracker, no loss of two billion frames";
+  EXPECT_EQ(lost_after(2'000'000'002), 2U);
 }
 
 TEST(DtrackSource, SaysWhyItCannotListen) {

@@ -269,6 +269,15 @@ TEST(MaterialFile, RefusesANameTwiceOrTooLong) {
   EXPECT_THAT(refusal(changed("\"mica\"", "\"" + std::string(60, 'm') + "\"")), HasSubstr("is longer than 47 bytes"));
 }
 
+// A material's name is a cell in the tables of lessons, and a word after --material.
+TEST(MaterialFile, RefusesANameThatBeginsLikeAFormulaOrAnOption) {
+  for (const std::string name : {"=1+1", "+mica", "-mica", "@mica"}) {
+    EXPECT_THAT(
+        refusal(changed("\"mica\"", "\"" + name + "\"")),
+        HasSubstr("line 2: material.name: \"" + name + "\" begins like a formula of a spreadsheet or an option"));
+  }
+}
+
 TEST(MaterialFile, SaysWhenItCannotBeReadOrParsed) {
   const auto missing = load_materials("/no/such/file.toml");
   ASSERT_FALSE(missing.has_value());

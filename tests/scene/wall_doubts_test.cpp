@@ -23,6 +23,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::SizeIs;
 
 struct Written {
   glm::dvec3 lower_left{-1.6, 0.5, 0}, lower_right{1.6, 0.5, 0}, upper_left{-1.6, 2.3, 0}, head{0, 1.65, 2.4};
@@ -75,6 +76,37 @@ TEST(WallDoubts, ArisesForNoPreset) {
   }
   EXPECT_GE(presets, 11U);
   EXPECT_THAT(Written().doubts(), IsEmpty());
+}
+
+// A second [[screen]] that was copied and not changed shows the same picture again.
+TEST(WallDoubts, NameTwoScreensAtOnePlaceUnlessTheyAreAPairOfEyes) {
+  const auto second = [](double right_m, const std::string& modes) {
+    Written wall;
+    wall.more = fmt::format(
+        "[[screen]]\nname = \"copy\"\nlower_left = [{:.3f}, 0.5, 0]\nlower_right = [{:.3f}, 0.5, 0]\n"
+        "upper_left = [{:.3f}, 2.3, 0]\n{}",
+        right_m - 1.6, right_m + 1.6, right_m - 1.6, modes);
+    return wall.doubts();
+  };
+  const auto output = [](const char* screen, const char* mode, int x) {
+    return fmt::format("[[output]]\nname = \"{0}\"\nscreen = \"{0}\"\nmode = \"{1}\"\nrect = [{2}, 0, 1600, 900]\n",
+                       screen, mode, x);
+  };
+  for (const double right_m : {0.0, 0.02}) {
+    EXPECT_THAT(second(right_m, ""), ElementsAre(AllOf(HasSubstr("screens \"wall\" and \"copy\" are at one place"),
+                                                       HasSubstr(fmt::format("{:.0f} mm apart", right_m * 1e3)),
+                                                       HasSubstr("give both outputs the same screen"))));
+  }
+  EXPECT_THAT(second(3.2, ""), IsEmpty());
+  EXPECT_THAT(second(0.0, output("wall", "left", 0) + output("copy", "right", 1600)), IsEmpty());
+  EXPECT_THAT(second(0.0, output("wall", "mono", 0) + output("copy", "mono", 1600)), SizeIs(1));
+  // a screen without an output, or with one for one eye only
+  EXPECT_THAT(second(3.2, output("wall", "mono", 0)), ElementsAre(HasSubstr("screen \"copy\" has no output")));
+  EXPECT_THAT(second(3.2, output("wall", "left", 0) + output("copy", "row", 1600)),
+              ElementsAre(HasSubstr("screen \"wall\" has no output for the right eye")));
+  EXPECT_THAT(second(3.2, "[[node]]\nname = \"left\"\nhost = \"10.0.0.2\"\n" + output("wall", "mono", 0) +
+                              output("copy", "mono", 1600)),
+              ElementsAre(HasSubstr("node \"left\" has no output")));
 }
 
 TEST(WallDoubts, RefuseAWallInAnotherUnitAndNameTheUnit) {

@@ -60,7 +60,7 @@ std::vector<Screen> planes_of(const scene::Wall& wall) {
   for (const auto& tiles : planes) screens.push_back(around(tiles));
   if (screens.size() > 1) {
     for (std::size_t i = 0; i < screens.size(); ++i) {
-      if (planes[i].size() > 1) screens[i].name = "tiles around " + planes[i].front().name;
+      if (planes[i].size() > 1) screens[i].name = "the tiles around " + planes[i].front().name;
     }
   }
   return screens;

@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <string_view>
 
+#include "coverage_doubts.h"
 #include "wall_units.h"
 
 namespace afm::scene {
@@ -321,6 +322,7 @@ std::vector<std::string> doubts_of(const Wall& wall) {
     doubts.push_back(fmt::format("screen \"{}\": it is {:.1f} mm x {:.1f} mm; lengths are in metres", screen.name,
                                  screen.width_m() * 1e3, screen.height_m() * 1e3));
   }
+  doubt_coverage(wall, doubts);
   const std::vector<std::string> turned = doubts_of_upright(wall);
   doubts.insert(doubts.end(), turned.begin(), turned.end());
   for (const Viewer& viewer : wall.viewers) {

@@ -65,6 +65,13 @@ class MaterialReader {
     if (entry_.name.size() >= kNameLength) {
       table_.refuse("name", fmt::format("is longer than {} bytes", kNameLength - 1));
     }
+    // the name is a cell of the tables of lessons
+    if (!entry_.name.empty() && std::string_view("=+-@").find(entry_.name.front()) != std::string_view::npos) {
+      table_.refuse(
+          "name",
+          fmt::format("\"{}\" begins like a formula of a spreadsheet or an option; begin with a letter or a digit",
+                      entry_.name));
+    }
 
     physics::ContactParameters& contact = entry_.contact;
     contact.tip_radius = values_.quantity("tip_radius", physics::kLengthUnits);

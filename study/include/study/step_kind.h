@@ -99,7 +99,7 @@ inline constexpr std::array kStepKinds{
                 .tapping = StepBeside::Refused},
     StepKindRow{.kind = StepKind::Write,
                 .word = "write",
-                .meaning = "lines to be scratched into a soft sample",
+                .meaning = "lines to be scratched or written with ink",
                 .answer = StepAnswer::Number,
                 .open_ended = false,
                 .has_cycles = false,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -92,6 +93,20 @@ TEST(FitBatch, HasARowAFileWhateverIsInIt) {
     EXPECT_EQ(rows[i][3], "");
   }
   EXPECT_THAT(rows[4][2], HasSubstr("there is no such file"));
+}
+
+// A spreadsheet would compute "=1+1.tab" instead of showing it.
+TEST(FitBatch, HasNoCellThatASpreadsheetTakesForAFormula) {
+  const support::ScratchFolder folder;
+  const std::string before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  const std::vector<std::string> files{"=1+1.tab", "+1.tab", "-1.tab", "@SUM.tab", "\"=1+1\".tab", "a=1.tab"};
+  const auto done = fit_files(files, paraboloid("out"), 1);
+  std::filesystem::current_path(before);
+  ASSERT_FALSE(done) << "none of them exists";
+  const auto rows = rows_of(folder.file("out/fits.tsv"));
+  ASSERT_EQ(rows.size(), 1 + files.size());
+  for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(rows[i + 1][0], (i < 5 ? "./" : "") + files[i]);
 }
 
 TEST(FitBatch, EndsWithAPageOfResultsSettingsAndReasons) {

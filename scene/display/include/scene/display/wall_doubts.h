@@ -11,9 +11,9 @@
 namespace afm::scene {
 
 // Signs of a mistake in a readable wall: other units, a room whose z points up, a picture that
-// is upside down, a head that faces no screen, a projector that stays half dark. Each is one line that names the
-// screen, viewer or output and the change that would help. Empty for a usual wall. Limits: a wall in feet whose origin
-// is its own centre looks like a large one in metres.
+// is upside down, a head that faces no screen, a screen without an output, a projector that stays half dark. Each is
+// one line that names the screen, viewer or output and the change that would help. Empty for a usual wall. Limits: a
+// wall in feet whose origin is its own centre looks like a large one in metres.
 std::vector<std::string> doubts_of(const Wall& wall);
 
 // The doubts, after a line for everything in the file that the program does not use.
