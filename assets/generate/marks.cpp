@@ -30,7 +30,13 @@ Model marks() {
   const auto add = [&](const char* name, Surface surface, MaterialSpec material) {
     model.nodes.push_back({.name = name, .parts = {{std::move(surface), std::move(material)}}, .extras = mark_role()});
   };
-  add("line", unit_beam(), pale());
+  // a pale line is seen on pale mica by its dark rim: lit, since unlit lines are in front of the journey, and blended,
+  // so that it casts no shadow
+  MaterialSpec rim = outline_material();
+  rim.unlit = false;
+  rim.alpha = 0.9;
+  model.nodes.push_back(
+      {.name = "line", .parts = {{unit_beam(), pale()}, {beam_outline(1.8), rim}}, .extras = mark_role()});
   add("push", unit_beam(), orange());
   add("push-head", unit_head(), orange());
   add("pull", unit_beam(), blue());

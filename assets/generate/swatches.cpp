@@ -170,18 +170,19 @@ Outline disc_with_flat(double radius, double flat, double fillet, int halvings) 
   return outline;
 }
 
-// A polished disc with the flat that marks its orientation, leaning back on a foot.
+// A polished disc with the flat that marks its orientation, nearly level on a foot.
 Model silicon_nitride() {
-  constexpr double kRadius = 8.8 * kCm, kFlat = 8.2 * kCm, kThickness = 1.3 * kCm;
+  constexpr double kRadius = 8.4 * kCm, kFlat = 7.8 * kCm, kThickness = 1.3 * kCm;
+  constexpr double kLean = 0.16, kAcross = 0.987117;  // sine and cosine
   Surface wafer, group, outline;
   add_prism(wafer, disc_with_flat(kRadius, kFlat, 1.0 * kCm, 4), -kThickness / 2, kThickness / 2, 0.25 * kCm);
   const Placement leaning{
-      {0, kPlinthHeight + 0.7 * kCm + kFlat * 0.28, kTopMiddle}, {1, 0, 0}, {0, 0.28, -0.96}, {0, 0.96, 0.28}};
+      {0, kPlinthHeight + 0.7 * kCm + kFlat * kLean, kTopMiddle}, {1, 0, 0}, {0, kLean, -kAcross}, {0, kAcross, kLean}};
   const Outline around = disc_with_flat(kRadius, kFlat, 1.0 * kCm, 3);
   add_placed(group, wafer, leaning);
   add_placed(outline, outline_of(around, -kThickness / 2, around, kThickness / 2, kOutline), leaning);
   Surface foot;
-  add_prism(foot, rounded_rectangle({-6 * kCm, -2.2 * kCm}, {6 * kCm, 2.2 * kCm}, 0.8 * kCm, 3), 0, 1.9 * kCm,
+  add_prism(foot, rounded_rectangle({-6 * kCm, -2.2 * kCm}, {6 * kCm, 2.2 * kCm}, 0.8 * kCm, 3), 0, 1.1 * kCm,
             0.3 * kCm);
   Model model =
       swatch("swatch-si3n4", std::move(group),

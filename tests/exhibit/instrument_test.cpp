@@ -12,10 +12,12 @@
 #include <string>
 #include <utility>
 
+#include "exhibit/frame/frame_builder.h"
 #include "exhibit/scenery/wall_scene.h"
 #include "physics/beam_shape.h"
 #include "physics/contact.h"
 #include "support/paper_wall.h"
+#include "support/sweet_spot.h"
 
 namespace afm::exhibit {
 namespace instrument_test {
@@ -381,6 +383,17 @@ TEST_F(SwingTest, HasABandWithoutHoles) {
   }
   EXPECT_GT(sheets, 0.0);
   EXPECT_NEAR(volume / sheets, 1.0, 1e-3);
+}
+
+TEST_F(InstrumentTest, ATipWithoutForceRestsOnTheSampleUntilItIsLifted) {
+  const curves::ContactSetup mica{materials_.materials[0], {}, {}};
+  const std::vector<curves::SampleModel> felt{curves::make_sample_model(mica).value()};
+  const FrameBuilder frames(scene_, felt, support::eyes_at_sweet_spot(wall_));
+  Moment moment;
+  moment.wall = {.material = 0, .tip = {.z_m = -5e-9}};
+  moment.phase = physics::Phase::WaitForLift;
+  EXPECT_NEAR(glm::distance(glm::dvec3(frames.build(moment).room_from_node[node("probe/apex")][3]), scene_.contact_m()),
+              0.0, 1e-6);
 }
 
 }  // namespace instrument_test

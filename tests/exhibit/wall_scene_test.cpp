@@ -15,6 +15,7 @@
 
 #include "curves/live_parameters.h"
 #include "curves/sample_model.h"
+#include "exhibit/models/user_models.h"
 #include "exhibit/scenery/wall_marks.h"
 #include "physics/contact.h"
 #include "scene/shared/felt_heights.h"
@@ -280,6 +281,13 @@ class SampleSize : public WallSceneTest {
             (high.z - low.z) * glm::length(axes[2])};
   }
 
+  // Width of the sample, which is felt at the size at which it is drawn.
+  double strokes(const WallScene& scene, std::size_t i, const scene::MaterialEntry& entry) const {
+    render::FrameState state;
+    scene.update({.material = i, .release_z_m = laid(scene, i, entry).scaling.release_z_m()}, state);
+    return size_of(scene, "sample-" + entry.name + "/surface", state).x / (0.30 * screen_.height_m());
+  }
+
   // With these parameters, sample and stroke keep their size, the ruler is right, and the tip is on the
   // surface that is felt.
   void expect_drawn_alike(const curves::SampleModel& model, std::size_t material, const std::string& what) {
@@ -353,17 +361,19 @@ TEST_F(SampleSize, IsTheSameForEveryMaterialOfTheLibrary) {
   const WallScene scene = WallScene::load(assets_, all, stage_, test::english()).value();
   ASSERT_GT(all.materials.size(), 10U);
   for (std::size_t i = 0; i < all.materials.size(); ++i) {
-    const curves::SampleModel model = laid(scene, i, all.materials[i]);
-    render::FrameState state;
-    scene.update({.material = i, .release_z_m = model.scaling.release_z_m()}, state);
-    const double strokes =
-        size_of(scene, "sample-" + all.materials[i].name + "/surface", state).x / (0.30 * screen_.height_m());
-    EXPECT_GE(strokes, kNarrowestSample - 1e-6) << all.materials[i].name;
-    EXPECT_LE(strokes, kWidestSample + 1e-6) << all.materials[i].name;
+    EXPECT_GE(strokes(scene, i, all.materials[i]), kNarrowestSample - 1e-6) << all.materials[i].name;
+    EXPECT_LE(strokes(scene, i, all.materials[i]), kWidestSample + 1e-6) << all.materials[i].name;
   }
 }
 
-// A material's own parameters change nothing of what is drawn or felt of the paper's samples.
+TEST_F(SampleSize, OfAnOwnModelThatIsTooWideIsDrawnAndFeltSmaller) {
+  const UserModels own = load_own_models("", assets_ + "/models/sample-gold.glb", {}).value();
+  const WallScene scene = WallScene::load(assets_, materials_, stage_, test::english(), own).value();
+  for (const std::size_t i : {0U, 2U}) EXPECT_NEAR(strokes(scene, i, materials_.materials[i]), kWidestSample, 1e-6);
+  EXPECT_NEAR(strokes(scene, 1, materials_.materials[1]), 1.70, 0.01) << "with the model's dark line";
+}
+
+// Own parameters change nothing of what is drawn or felt.
 TEST_F(SampleSize, IsItsOwnForThePapersSamples) {
   for (std::size_t i = 0; i < materials_.materials.size(); ++i) {
     const curves::SampleModel model = laid(scene_, i, materials_.materials[i]);

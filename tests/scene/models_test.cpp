@@ -308,8 +308,19 @@ TEST(Swatches, HaveAnOutlineOfHalfToThreeMillimetres) {
 TEST(Swatches, AreSoLowThatTheFrontOfTheSampleIsSeenAboveThem) {
   for (const char* name : {"swatch-mica", "swatch-gold", "swatch-si3n4"}) {
     const Scene scene = load(name);
-    for (const glm::dvec3& place : positions_of(mesh_of(scene, "swatch"))) ASSERT_LT(place.y, 0.15) << name;
+    for (const glm::dvec3& place : positions_of(mesh_of(scene, "swatch"))) ASSERT_LT(place.y, 0.13) << name;
   }
+}
+
+TEST(PaleLines, HaveADarkRimThatCastsNoShadow) {
+  const Scene scene = load("marks");
+  const std::vector<Primitive>& parts = scene.meshes[*scene.nodes[scene.find_node("line").value()].mesh].primitives;
+  ASSERT_EQ(parts.size(), 2U);
+  const PbrMaterial& rim = scene.materials.at(parts[1].material);
+  EXPECT_TRUE(rim.blended) << "would cast a shadow";
+  EXPECT_FALSE(rim.unlit) << "would be in front of the line in the journey";
+  EXPECT_LT(rim.base_color.r, 0.01F);
+  EXPECT_GT(parts[1].vertices.front().position.x, 1.5F * parts[0].vertices.front().position.x);
 }
 
 // The tip's end is a ball of 50 nm with clusters that lie within it, as wide as a part of their distance from the apex.

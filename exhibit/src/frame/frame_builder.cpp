@@ -112,6 +112,13 @@ std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figure
   return markers;
 }
 
+// What is drawn of a moment: without a force the tip rests on the sample until it is lifted, though the hand is deeper.
+WallState drawn_state(const Moment& moment) {
+  WallState drawn = moment.wall;
+  if (moment.phase == physics::Phase::WaitForLift) drawn.tip.z_m = std::max(drawn.tip.z_m, drawn.tip.deflection_m);
+  return drawn;
+}
+
 }  // namespace
 
 glm::vec3 curve_color(std::size_t material) {
@@ -174,7 +181,7 @@ FrameBuilder::FrameBuilder(const WallScene& wall_scene, const std::vector<curves
 render::FrameState FrameBuilder::build(const Moment& moment) const {
   render::FrameState frame;
   frame.eyes = eyes_;
-  wall_scene_->update(moment.wall, frame);
+  wall_scene_->update(drawn_state(moment), frame);
   frame.panels.force.content = force_panel(moment);
   if (moment.scan != nullptr && moment.wall.material) {
     const std::string& title = (*materials_)[*moment.wall.material].setup.material.title;

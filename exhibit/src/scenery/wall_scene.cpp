@@ -10,6 +10,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/check.h"
+#include "core/log.h"
 #include "exhibit/models/model_builder.h"
 #include "exhibit/models/particle_models.h"
 #include "exhibit/models/relief.h"
@@ -32,6 +33,14 @@ using glm::dvec3;
 // a stamp on it.
 double stroke_of_sample(double width_m, double stroke_m) {
   return std::clamp(stroke_m, width_m / kWidestSample, width_m / kNarrowestSample);
+}
+
+// Names the scale of an own sample that is too wide for the stroke, and would hide panels and swatches.
+void note_smaller_sample(const std::string& title, double scale) {
+  if (scale >= 1.0) return;
+  core::log_line(
+      fmt::format("{}: your sample is wider than {} strokes of the tip, so it is drawn and felt at {:.2g} of its size",
+                  title, kWidestSample, scale));
 }
 
 // Place of the colour scale of heights: seen beside its numbers, which are in the wall's plane, but so near to the eye
@@ -89,7 +98,10 @@ void WallScene::add_material(ModelBuilder& build, const std::string& assets_dir,
     look.height_field = build.error() ? scene::kNoHeightField : height_field_of(own.sample ? "own" : model, surface);
     const scene::Bounds slab = build.error() ? scene::Bounds{dvec3(0.0), dvec3(0.0)} : bounds_below(scene_, surface);
     look.thickness_m = -slab.low.z;
-    if (!own.sample) look.surface_stroke_m = stroke_of_sample(slab.high.x - slab.low.x, look.stroke_m);
+    const dvec3 side = slab.high - slab.low;
+    look.surface_stroke_m = own.sample ? std::max(look.stroke_m, std::max(side.x, side.y) / kWidestSample)
+                                       : stroke_of_sample(side.x, look.stroke_m);
+    if (own.sample) note_smaller_sample(material.title, look.stroke_m / look.surface_stroke_m);
   }
   look.ground = journey_.add_ground(build, scene_, model);
   const std::string swatch = "swatch-" + material.name;
