@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "app/options/command.h"
+#include "app/options/curve_fit_options.h"
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
@@ -172,6 +173,7 @@ void add_lever_command(OptionList& program, const CommandContext&) {
       .needs(curve)
       .show_default()
       .type_name("INDEX");
+  add_columns_option(command, lever.curve_reading).option.needs(curve);
   quantity_option(
       command, "--bandwidth", [&lever](physics::Frequency hz) { lever.bandwidth_hz = hz.si; }, physics::kFrequencyUnits,
       "also print the thermal noise below this frequency", std::optional(kBandwidths));

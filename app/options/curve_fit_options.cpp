@@ -5,11 +5,13 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "app/options/enum_option.h"
 #include "app/options/quantity_option.h"
 #include "curves/lever/lever_inputs.h"
+#include "curves/table_columns.h"
 #include "physics/contact_parameters.h"
 #include "physics/quantity_text.h"
 
@@ -52,6 +54,25 @@ NamedOption add_sensitivity_option(OptionList& command, curves::CurveReading& re
                                  "sensitivity of the optical lever instead of the file's")
               .type_name("SENSITIVITY in um/V, nm/V, pm/V"),
           "--sensitivity"};
+}
+
+NamedOption add_columns_option(OptionList& command, curves::CurveReading& reading) {
+  const auto read_columns = [&reading](const std::string& text) -> core::Result<void> {
+    auto columns = curves::parse_table_columns(text);
+    if (!columns) return tl::unexpected(columns.error());
+    reading.columns = std::move(*columns);
+    return {};
+  };
+  return {command
+              .add_parsed_option("--columns", read_columns,
+                                 "read FILE as a plain table, by the names and units of its columns: "
+                                 "\"height:um force:nN\", \"- height:nm deflection:V\", or deflection:-V where the "
+                                 "sign is the opposite; names: height, "
+                                 "tip-position (the separation of other programs), force, deflection; for a way back "
+                                 "beside the approach retract-height, retract-tip-position, retract-force, "
+                                 "retract-deflection; segment, time, -")
+              .type_name("COLUMNS"),
+          "--columns"};
 }
 
 std::vector<NamedOption> add_calibration_options(OptionList& command, curves::CurveReading& reading) {

@@ -26,6 +26,9 @@ core::Result<physics::Stiffness> parse_spring_constant(std::string_view text);
 // Adds --sensitivity, which writes into `reading` while the parser lives. Returns it with its name.
 NamedOption add_sensitivity_option(OptionList& command, curves::CurveReading& reading);
 
+// Same for --columns.
+NamedOption add_columns_option(OptionList& command, curves::CurveReading& reading);
+
 // Adds --spring-constant and --sensitivity, which write into `reading` while the parser lives. Returns them with their
 // names.
 std::vector<NamedOption> add_calibration_options(OptionList& command, curves::CurveReading& reading);

@@ -346,6 +346,13 @@ TEST(ColumnTable, ComparesItsHeadingWithTheUnits) {
   }
   EXPECT_THAT(remarks("z / m\tin the N", "height:um force:nN"), testing::ElementsAre(HasSubstr("column 1")));
   EXPECT_THAT(remarks("curve A\tchannel V", "height:um force:nN"), testing::IsEmpty());
+  // units in a line of their own, above a rule, and below a line about something else
+  for (const char* heading : {"z\tF\nnm\tnN", "z/nm\tF/nN\n----", "# z (nm)\tF (nN)\n#", "units:\tnm\tnN"}) {
+    EXPECT_THAT(remarks(heading, "height:um force:nN"), testing::ElementsAre(HasSubstr("column 1"))) << heading;
+    EXPECT_THAT(remarks(heading, "height:nm force:nN"), testing::IsEmpty()) << heading;
+  }
+  EXPECT_THAT(remarks("range (nm)\t3500\nz (um)\tF", "height:um force:nN"), testing::IsEmpty());
+  EXPECT_THAT(remarks("range (nm)\t3500\nz\tF", "height:um force:nN"), testing::IsEmpty());
 }
 
 TEST(ColumnTable, SaysThatItHasMoreColumns) {
@@ -382,7 +389,7 @@ TEST(TableColumns, AreNamedWithTheirUnits) {
   EXPECT_THAT(error("height force:nN"), HasSubstr("has no unit of its quantity"));
   for (const char* text :
        {"", "height:um", "force:nN", "height:um height:nm force:nN", "height:um force:nN deflection:V"}) {
-    EXPECT_THAT(error(text), HasSubstr("one height, and one force or deflection")) << text;
+    EXPECT_THAT(error(text), HasSubstr("one height or tip-position, and one force or deflection")) << text;
   }
   EXPECT_THAT(error("height:um force:nN retract-deflection:V"), HasSubstr("the same quantity"));
   EXPECT_THAT(error("height:um force:nN retract-force:nN segment"), HasSubstr("neither segment nor time"));

@@ -6,15 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
 #include "curves/curve_report.h"
 #include "curves/image_file.h"
+#include "curves/table_columns.h"
 #include "physics/normal_generator.h"
 #include "support/image_files.h"
 #include "support/places.h"
@@ -284,6 +287,98 @@ TEST(LabCurves, MayHaveSignsAndBlanksBehindTheirLines) {
   const auto blanks = parse_curve(std::regex_replace(*own, std::regex("\n"), " \n"), "a.csv");
   ASSERT_TRUE(blanks.has_value()) << blanks.error().message;
   EXPECT_EQ(blanks->points.size(), parse_curve(*own, "a.csv")->points.size());
+}
+
+// Down by 40 steps of 20 nm and back under a lever of 0.1 N/m, 0.5 nN a step from the 25th on; `row` writes the height
+// of the base in nm and the force in nN.
+template <class Row>
+std::string lab_table(const Row& row) {
+  std::string text;
+  for (int i = 0; i < 80; ++i) {
+    const int step = i < 40 ? i : 79 - i;
+    text += row(1000.0 - 20.0 * step, (step < 25 ? -0.125 : 0.5 * (step - 25)) + (i < 40 ? 0.0 : 0.25));
+  }
+  return text;
+}
+
+RecordedCurve lab_curve(const std::string& text, const char* columns) {
+  CurveReading reading;
+  const auto parsed = parse_table_columns(columns);
+  EXPECT_TRUE(parsed) << parsed.error().message;
+  reading.columns = *parsed;
+  reading.spring_constant = physics::Stiffness(0.1);
+  auto curve = parse_curve(text, "a.txt", reading);
+  EXPECT_TRUE(curve) << columns << ": " << curve.error().message;
+  return curve ? std::move(*curve) : RecordedCurve{};
+}
+
+void expect_same(const RecordedCurve& curve, const RecordedCurve& other, const char* what) {
+  ASSERT_EQ(curve.points.size(), other.points.size()) << what;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    ASSERT_NEAR(curve.points[i].z.si, other.points[i].z.si, 1e-18) << what << ", point " << i;
+    ASSERT_NEAR(curve.points[i].force.si, other.points[i].force.si, 1e-18) << what << ", point " << i;
+    ASSERT_EQ(curve.points[i].branch, other.points[i].branch) << what << ", point " << i;
+  }
+}
+
+// Bruker's "separation": the base's height plus the lever's deflection.
+TEST(LabTables, MayHaveThePositionOfTheTip) {
+  const auto plain = [](double z, double f) { return fmt::format("{} {}\n", z, f); };
+  const RecordedCurve curve = lab_curve(lab_table(plain), "height:nm force:nN");
+  const auto of_tip = [](double z, double f) { return fmt::format("{} {}\n", z + f / 0.1, f); };
+  expect_same(lab_curve(lab_table(of_tip), "tip-position:nm force:nN"), curve, "force");
+  const auto deflected = [](double z, double f) { return fmt::format("{} {}\n", z + f / 0.1, f / 0.1); };
+  expect_same(lab_curve(lab_table(deflected), "tip-position:nm deflection:nm"), curve, "deflection");
+  EXPECT_THAT(lab_curve("separation (nm) force\n" + lab_table(of_tip), "tip-position:nm force:nN").metadata.remarks,
+              testing::IsEmpty());
+  EXPECT_THAT(
+      lab_curve("Separation_nm force_nN\n" + lab_table(of_tip), "height:nm force:nN").metadata.remarks,
+      ElementsAre(HasSubstr("if it is the position of the tip, and not of the lever's base, call it tip-position")));
+  CurveReading unknown;
+  unknown.columns = *parse_table_columns("tip-position:nm force:nN");
+  EXPECT_THAT(parse_curve(lab_table(of_tip), "a.txt", unknown).error().message, HasSubstr("give --spring-constant"));
+}
+
+TEST(LabTables, MayHaveTheWayBackAtHeightsOfItsOwn) {
+  std::vector<std::pair<double, double>> points;
+  lab_table([&](double z, double f) {
+    points.emplace_back(z, f);
+    return "";
+  });
+  const auto beside = [&](bool of_tip, bool reversed) {
+    std::string text;
+    for (std::size_t i = 0; i < 40; ++i) {
+      const auto [z, f] = points[i];
+      const auto [back_z, back_f] = points[reversed ? 79 - i : 40 + i];
+      const double k = of_tip ? 0.1 : std::numeric_limits<double>::infinity();
+      text += fmt::format("{};{};{};{}\n", z + f / k, f, 7.0 + back_z + back_f / k, back_f);
+    }
+    return text;
+  };
+  RecordedCurve curve =
+      lab_curve(lab_table([](double z, double f) { return fmt::format("{} {}\n", z, f); }), "height:nm force:nN");
+  for (std::size_t i = 40; i < 80; ++i) curve.points[i].z = curve.points[i].z + physics::Length(7e-9);
+  for (const bool reversed : {false, true}) {
+    expect_same(lab_curve(beside(false, reversed), "height:nm force:nN retract-height:nm retract-force:nN"), curve,
+                reversed ? "base, reversed" : "base");
+    expect_same(lab_curve(beside(true, reversed), "tip-position:nm force:nN retract-tip-position:nm retract-force:nN"),
+                curve, reversed ? "tip, reversed" : "tip");
+  }
+  for (const char* wrong :
+       {"height:nm force:nN retract-height:nm", "retract-height:nm retract-force:nN force:nN",
+        "height:nm force:nN retract-tip-position:nm retract-force:nN", "tip-position:nm height:nm force:nN"}) {
+    EXPECT_FALSE(parse_table_columns(wrong)) << wrong;
+  }
+}
+
+// Windows writes U+2212 in Swedish and other languages.
+TEST(LabTables, MayHaveUnicodesMinus) {
+  const auto plain = [](double z, double f) { return fmt::format("{} {:e}\n", z - 700.0, f); };
+  const auto unicode = [&](double z, double f) {
+    return std::regex_replace(plain(z, f), std::regex("-"), std::string("\u2212"));
+  };
+  expect_same(lab_curve(lab_table(unicode), "height:nm force:nN"), lab_curve(lab_table(plain), "height:nm force:nN"),
+              "minus");
 }
 
 }  // namespace lab_curves_test

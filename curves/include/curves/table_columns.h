@@ -8,8 +8,21 @@
 
 namespace afm::curves {
 
-// Content of a column of a plain table. Retract: the way back, at the same heights in reverse order.
-enum class ColumnKind { Height, Force, Deflection, RetractForce, RetractDeflection, Segment, Time, Nothing };
+// Content of a column of a plain table. Height: that of the lever's base; tip position: base plus deflection, the
+// "separation" of other programs. Retract: the way back, without a height of its own at the same ones in reverse order.
+enum class ColumnKind {
+  Height,
+  TipPosition,
+  Force,
+  Deflection,
+  RetractHeight,
+  RetractTipPosition,
+  RetractForce,
+  RetractDeflection,
+  Segment,
+  Time,
+  Nothing
+};
 
 struct TableColumn {
   ColumnKind kind = ColumnKind::Nothing;
@@ -22,7 +35,7 @@ using TableColumns = std::vector<TableColumn>;
 
 // Parses "height:um force:nN": the columns' names with their units, separated by blanks; "-" is a column that is not
 // read, and "deflection:-V" one whose sign is reversed. WrongUsage, with the names and units that are known, for
-// anything else, and unless there are one height and one force or deflection.
+// anything else, and unless there are one height or tip position and one force or deflection.
 core::Result<TableColumns> parse_table_columns(std::string_view text);
 
 }  // namespace afm::curves

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -49,6 +50,11 @@ std::optional<TableNumber> table_number(std::string_view field, char separator) 
   if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
     field = trimmed(field.substr(1, field.size() - 2));
   std::string text(field);
+  // Unicode's minus, as some languages of Windows write it
+  constexpr std::string_view kMinus = "\u2212";
+  for (std::size_t at = text.find(kMinus); at != std::string::npos; at = text.find(kMinus)) {
+    text.replace(at, kMinus.size(), "-");
+  }
   TableNumber number;
   number.has_point = text.find('.') != std::string::npos;
   const std::size_t comma = text.find(',');
@@ -69,6 +75,9 @@ std::optional<TableNumber> table_number(std::string_view field, char separator) 
 std::string_view base_unit(const TableColumn& column) {
   switch (column.kind) {
     case ColumnKind::Height:
+    case ColumnKind::TipPosition:
+    case ColumnKind::RetractHeight:
+    case ColumnKind::RetractTipPosition:
       return "m";
     case ColumnKind::Force:
     case ColumnKind::RetractForce:
@@ -98,14 +107,27 @@ std::string_view unit_in(std::string_view words) {
   return last.size() > 1 || follows_stroke ? last : std::string_view();  // empty for "column V", one of many
 }
 
-// Returns whether the words above a column name another unit.
-bool names_another_unit(std::string_view words, const TableColumn& column) {
-  const ScaledUnit unit = scaled_unit(unit_in(trimmed(words)));
+// Unit that is named above a column, next to that of --columns.
+enum class NamedUnit { None, Same, Another };
+
+NamedUnit compared(std::string_view name, const TableColumn& column) {
+  const ScaledUnit unit = scaled_unit(name);
   if (base_unit(column).empty() || (unit.unit != "m" && unit.unit != "N" && unit.unit != "V" && unit.unit != "s")) {
-    return false;
+    return NamedUnit::None;
   }
   constexpr double kRounding = 1e-6;
-  return unit.unit != base_unit(column) || std::abs(unit.factor / std::abs(column.si_per_unit) - 1.0) > kRounding;
+  const bool same =
+      unit.unit == base_unit(column) && std::abs(unit.factor / std::abs(column.si_per_unit) - 1.0) <= kRounding;
+  return same ? NamedUnit::Same : NamedUnit::Another;
+}
+
+// Returns whether a column of the lever's base is called the position of the tip, as other programs write it.
+bool names_tip(std::string_view words, const TableColumn& column) {
+  if (column.kind != ColumnKind::Height && column.kind != ColumnKind::RetractHeight) return false;
+  std::string lower(words);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower.find("separation") != std::string::npos || lower.find("tip position") != std::string::npos;
 }
 
 // Reads lines into columns; a column that is not read stays empty.
@@ -141,6 +163,7 @@ class TableReader {
     }
     if (rows_ == 0) {
       check_heading();
+      check_tip();
       see_first(number);
     }
     if (++rows_ > kMostCurvePoints) throw CurveError("it has more points than a curve may have");
@@ -177,13 +200,16 @@ class TableReader {
                     more_fields_at_, most_fields_, columns_.size()));
   }
 
-  // Remembers a line above the numbers.
+  // Remembers a line above the numbers; of a long heading the last lines.
   void see_heading(std::string_view line) {
-    if (rows_ == 0) heading_ = line;
+    constexpr std::size_t kMostLines = 16;
+    if (rows_ > 0) return;
+    if (headings_.size() == kMostLines) headings_.erase(headings_.begin());
+    headings_.push_back(line);
   }
 
   bool has_rows() const { return rows_ > 0; }
-  std::string_view heading() const { return heading_; }
+  std::string_view heading() const { return headings_.empty() ? std::string_view() : headings_.back(); }
   std::vector<std::string> take_remarks() { return std::move(remarks_); }
   std::vector<std::vector<double>> take() { return std::move(table_); }
 
@@ -227,8 +253,9 @@ class TableReader {
     const bool counts =
         std::any_of(first_.begin(), first_.end(), [=](double value) { return value == below || value == numbers; });
     if (!whole || !counts) return;
-    const auto height = std::find_if(columns_.begin(), columns_.end(),
-                                     [](const TableColumn& column) { return column.kind == ColumnKind::Height; });
+    const auto height = std::find_if(columns_.begin(), columns_.end(), [](const TableColumn& column) {
+      return column.kind == ColumnKind::Height || column.kind == ColumnKind::TipPosition;
+    });
     if (height == columns_.end()) return;
     const std::vector<double>& heights = table_[static_cast<std::size_t>(height - columns_.begin())];
     double step = 0.0;
@@ -257,13 +284,48 @@ class TableReader {
     return std::any_of(rest, fields_.end(), [](std::string_view field) { return !trimmed(field).empty(); });
   }
 
+  // Compares the units of the lowest line that names them with those of --columns.
   void check_heading() {
-    split_line(heading_, separator_, fields_);
-    if (fields_.size() < columns_.size() || (separator_ == ' ' && fields_.size() != columns_.size())) return;
+    for (auto line = headings_.rbegin(); line != headings_.rend(); ++line) {
+      split_line(*line, separator_, fields_);
+      // "units: nm nN"
+      if (fields_.size() > columns_.size() && trimmed(fields_.front()).ends_with(':')) fields_.erase(fields_.begin());
+      if (fields_.size() < columns_.size()) continue;
+      // a line far above may be about something else, and must name the units of all columns
+      const bool words =
+          (separator_ != ' ' || fields_.size() == columns_.size()) && names_units(line == headings_.rbegin(), unit_in);
+      if (words || names_units(false, trimmed)) return;
+    }
+  }
+
+  // Remarks on other units if `unit_of` finds a unit in the field above each column that has one, or above `any` of
+  // them. Returns whether it does.
+  bool names_units(bool any, std::string_view (*unit_of)(std::string_view)) {
+    std::size_t quantities = 0, named = 0;
+    std::vector<std::size_t> others;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (!names_another_unit(fields_[i], columns_[i])) continue;
+      const NamedUnit unit = compared(unit_of(trimmed(fields_[i])), columns_[i]);
+      quantities += base_unit(columns_[i]).empty() ? 0U : 1U;
+      named += unit == NamedUnit::None ? 0U : 1U;
+      if (unit == NamedUnit::Another) others.push_back(i);
+    }
+    if (named == 0 || (!any && named < quantities)) return false;
+    for (const std::size_t i : others) {
       remarks_.push_back(fmt::format("the heading of column {} is \"{}\", and --columns names another unit", i + 1,
                                      trimmed(fields_[i]).substr(0, 40)));
+    }
+    return true;
+  }
+
+  // Remarks on heights of the last line above the numbers that are said to be those of the tip.
+  void check_tip() {
+    split_line(heading(), separator_, fields_);
+    for (std::size_t i = 0; i < columns_.size() && fields_.size() == columns_.size(); ++i) {
+      if (!names_tip(fields_[i], columns_[i])) continue;
+      remarks_.push_back(fmt::format(
+          "the heading of column {} is \"{}\": if it is the position of the tip, and not of the lever's base, call it "
+          "tip-position",
+          i + 1, trimmed(fields_[i]).substr(0, 40)));
     }
   }
 
@@ -274,7 +336,7 @@ class TableReader {
   std::size_t first_at_ = 0;   // line number of the first row
   std::vector<std::string_view> fields_;
   std::vector<std::string> remarks_;
-  std::string_view heading_;  // last line above the numbers
+  std::vector<std::string_view> headings_;  // last lines above the numbers
   std::size_t rows_ = 0, padding_ = 0;
   std::size_t more_fields_at_ = 0, most_fields_ = 0;  // first line with more fields than columns; 0: none
   bool points_ = false, commas_ = false;              // decimal marks found so far

@@ -35,8 +35,11 @@ struct ColumnRow {
 };
 constexpr std::array kColumnRows{
     ColumnRow{ColumnKind::Height, "height", ColumnUnits::Length},
+    ColumnRow{ColumnKind::TipPosition, "tip-position", ColumnUnits::Length},
     ColumnRow{ColumnKind::Force, "force", ColumnUnits::Force},
     ColumnRow{ColumnKind::Deflection, "deflection", ColumnUnits::LengthOrVolts},
+    ColumnRow{ColumnKind::RetractHeight, "retract-height", ColumnUnits::Length},
+    ColumnRow{ColumnKind::RetractTipPosition, "retract-tip-position", ColumnUnits::Length},
     ColumnRow{ColumnKind::RetractForce, "retract-force", ColumnUnits::Force},
     ColumnRow{ColumnKind::RetractDeflection, "retract-deflection", ColumnUnits::LengthOrVolts},
     ColumnRow{ColumnKind::Segment, "segment", ColumnUnits::None},
@@ -183,11 +186,27 @@ std::vector<double> segments_of(const std::vector<double>& heights) {
   return segments;
 }
 
-void add_branch(const std::vector<double>& heights, const std::vector<double>& forces, double newtons,
-                RecordedCurve& curve) {
-  for (std::size_t i = 0; i < heights.size(); ++i) {
-    curve.points.push_back({physics::Length(heights[i]), physics::Force(forces[i] * newtons)});
+// Metres per newton by which the lever's base is below the tip; 0 where the table has the base's heights.
+double metres_per_newton(bool of_tip, const CurveReading& reading) {
+  if (!of_tip) return 0.0;
+  if (reading.spring_constant) return 1.0 / reading.spring_constant->si;
+  throw CurveError("it has positions of the tip, not heights of the lever's base; give --spring-constant");
+}
+
+// Adds the points of one way: its heights or tip positions, and its forces or deflections.
+void add_way(const std::vector<double>& places, const std::vector<double>& forces, double newtons, double metres,
+             RecordedCurve& curve) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double force_n = forces[i] * newtons;
+    curve.points.push_back({physics::Length(places[i] - metres * force_n), physics::Force(force_n)});
   }
+}
+
+std::vector<double> heights_of(const RecordedCurve& curve) {
+  std::vector<double> heights;
+  heights.reserve(curve.points.size());
+  for (const physics::CurvePoint& point : curve.points) heights.push_back(point.z.si);
+  return heights;
 }
 
 std::string known_columns() {
@@ -197,25 +216,36 @@ std::string known_columns() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-core::Result<void> check(const TableColumns& columns) {
+core::Result<void> check_retract(const TableColumns& columns) {
   const auto count = [&](ColumnKind kind) { return count_of(columns, kind); };
-  const bool forces = count(ColumnKind::Force) == 1, deflections = count(ColumnKind::Deflection) == 1;
-  const std::size_t back = count(ColumnKind::RetractForce) + count(ColumnKind::RetractDeflection);
-  if (count(ColumnKind::Height) != 1 || forces == deflections || count(ColumnKind::Force) > 1 ||
-      count(ColumnKind::Deflection) > 1) {
-    return core::wrong_usage("it needs one height, and one force or deflection: \"height:um force:nN\"");
-  }
-  if (back > 1 || count(ColumnKind::RetractForce) > (forces ? 1U : 0U) ||
-      count(ColumnKind::RetractDeflection) > (deflections ? 1U : 0U)) {
+  const std::size_t forces = count(ColumnKind::Force),
+                    back = count(ColumnKind::RetractForce) + count(ColumnKind::RetractDeflection);
+  if (back > 1 || count(ColumnKind::RetractForce) > forces || count(ColumnKind::RetractDeflection) > 1 - forces) {
     return core::wrong_usage("the retract has one column, of the same quantity as the approach");
   }
-  if (count(ColumnKind::Segment) > 1 || count(ColumnKind::Time) > 1) {
-    return core::wrong_usage("a segment or a time is named twice");
+  if (count(ColumnKind::RetractHeight) > back * count(ColumnKind::Height) ||
+      count(ColumnKind::RetractTipPosition) > back * count(ColumnKind::TipPosition)) {
+    return core::wrong_usage(
+        "heights or tip positions of the retract are of the same kind as those of the approach, and need its force: "
+        "\"height:nm force:nN retract-height:nm retract-force:nN\"");
   }
   if (back == 1 && (count(ColumnKind::Segment) > 0 || count(ColumnKind::Time) > 0)) {
     return core::wrong_usage("a retract beside the approach has neither segment nor time; write - for them");
   }
   return {};
+}
+
+core::Result<void> check(const TableColumns& columns) {
+  const auto count = [&](ColumnKind kind) { return count_of(columns, kind); };
+  if (count(ColumnKind::Height) + count(ColumnKind::TipPosition) != 1 ||
+      count(ColumnKind::Force) + count(ColumnKind::Deflection) != 1) {
+    return core::wrong_usage(
+        "it needs one height or tip-position, and one force or deflection: \"height:um force:nN\"");
+  }
+  if (count(ColumnKind::Segment) > 1 || count(ColumnKind::Time) > 1) {
+    return core::wrong_usage("a segment or a time is named twice");
+  }
+  return check_retract(columns);
 }
 
 }  // namespace
@@ -251,21 +281,28 @@ RecordedCurve read_column_table(std::string_view bytes, const CurveReading& read
   auto [table, remarks] = table_numbers(bytes, columns);
   const auto at = [&](ColumnKind kind) { return place_of(columns, kind); };
   const auto column_of_kinds = [&](ColumnKind a, ColumnKind b) { return at(a) ? at(a) : at(b); };
-  const std::vector<double>& heights = table[*at(ColumnKind::Height)];
+  const bool of_tip = at(ColumnKind::TipPosition).has_value();
+  const std::vector<double>& heights = table[*column_of_kinds(ColumnKind::Height, ColumnKind::TipPosition)];
   const std::size_t force = *column_of_kinds(ColumnKind::Force, ColumnKind::Deflection);
+  const double metres = metres_per_newton(of_tip, reading);
   RecordedCurve curve;
   curve.metadata.remarks = std::move(remarks);
-  add_branch(heights, table[force], newtons_per(columns[force], reading), curve);
+  add_way(heights, table[force], newtons_per(columns[force], reading), metres, curve);
   std::vector<double> segments(heights.size(), 0.0);
   if (const auto back = column_of_kinds(ColumnKind::RetractForce, ColumnKind::RetractDeflection)) {
-    const std::vector<double> reversed(heights.rbegin(), heights.rend());
-    const std::vector<double> forces(table[*back].rbegin(), table[*back].rend());
-    add_branch(reversed, forces, newtons_per(columns[*back], reading), curve);
+    const auto own = column_of_kinds(ColumnKind::RetractHeight, ColumnKind::RetractTipPosition);
+    const std::vector<double>&forces = table[*back], &places = own ? table[*own] : heights;
+    const double newtons = newtons_per(columns[*back], reading);
+    if (own) {
+      add_way(places, forces, newtons, metres, curve);
+    } else {
+      add_way({places.rbegin(), places.rend()}, {forces.rbegin(), forces.rend()}, newtons, metres, curve);
+    }
     segments.resize(curve.points.size(), 1.0);
   } else if (const auto segment = at(ColumnKind::Segment)) {
     segments = table[*segment];
   } else {
-    segments = segments_of(heights);
+    segments = segments_of(heights_of(curve));
   }
   if (const auto time = at(ColumnKind::Time)) {
     for (const double seconds : table[*time]) curve.time_s.push_back(seconds - table[*time].front());
