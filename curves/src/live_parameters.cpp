@@ -14,6 +14,7 @@
 
 #include "curves/curve_map.h"
 #include "curves/recorded_curve.h"
+#include "curves/tapping/felt_swing.h"
 #include "physics/adhesion_map.h"
 #include "physics/force_model.h"
 #include "physics/quantity_text.h"
@@ -132,6 +133,8 @@ bool LiveParameters::take(const Steps& steps) {
       refusal_ = model.error().message;
       return false;
     }
+    refusal_ = why_swing_is_lost(*model);
+    if (!refusal_.empty()) return false;
     curve_ = predict(*model);
     model->setup = loaded_.setup;
     now_ = std::move(*model);
