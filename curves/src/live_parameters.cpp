@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "curves/curve_map.h"
+#include "curves/felt_swing.h"
 #include "curves/recorded_curve.h"
-#include "curves/tapping/felt_swing.h"
 #include "physics/adhesion_map.h"
 #include "physics/force_model.h"
 #include "physics/quantity_text.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "curves/tapping/felt_swing.h"
+#include "curves/felt_swing.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "scene/shared/shared_segment.h"

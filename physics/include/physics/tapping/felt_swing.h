@@ -11,7 +11,7 @@ class TapSurface;
 struct DrivenLever;
 struct LawTables;
 
-// Largest amplitude with a row of its own in the tables of the averages, as a share of the free amplitude.
+// Amplitude of the last row in the tables of the averages, as a share of the free amplitude.
 inline constexpr double kLargestAveragedShare = 1.25;
 // Amplitude beyond which a hand has no force until it is lifted, as a share of the free amplitude.
 inline constexpr double kLostSwingShare = 2.0;
@@ -20,8 +20,8 @@ inline constexpr double kLostSwingShare = 2.0;
 Length largest_felt_swing(const DrivenLever& lever) noexcept;
 
 // Largest amplitude of a slow hand on its way down and up, at least: a stiff sample raises the resonance of the lever,
-// and enlarges the swing of a drive above it. `tables` are tapped_law_tables() of this surface and lever. For a drive at
-// or below the resonance the free amplitude, at once; else takes tenths of a second, and allocates.
+// and enlarges the swing of a drive above it. `tables` are tapped_law_tables() of this surface and lever. For a drive
+// at or below the resonance the free amplitude, at once; else takes tenths of a second, and allocates.
 Length largest_swing_of_hand(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
                              const LawTables& tables);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "curves/tapping/felt_swing.h"
+#include "curves/felt_swing.h"
 
 #include <fmt/format.h>
 
