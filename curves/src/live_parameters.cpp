@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "curves/curve_map.h"
+#include "curves/felt_swing.h"
 #include "curves/recorded_curve.h"
 #include "physics/adhesion_map.h"
 #include "physics/force_model.h"
@@ -132,6 +133,8 @@ bool LiveParameters::take(const Steps& steps) {
       refusal_ = model.error().message;
       return false;
     }
+    refusal_ = why_swing_is_lost(*model);
+    if (!refusal_.empty()) return false;
     curve_ = predict(*model);
     model->setup = loaded_.setup;
     now_ = std::move(*model);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "curves/felt_swing.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "scene/shared/shared_segment.h"
@@ -65,7 +66,12 @@ core::Result<SampleModel> make_sample_model(const ContactSetup& setup) {
     const std::string why =
         scene::why_no_friction(parameters.friction.law, parameters.law, parameters.contact.reduced_modulus);
     if (!why.empty()) return refusal(setup.material, core::ErrorCategory::WrongUsage, why);
-    return model_with(setup, parameters, {});
+    auto model = model_with(setup, parameters, {});
+    if (!model) return model;
+    if (const std::string lost = why_swing_is_lost(*model); !lost.empty()) {
+      return refusal(setup.material, core::ErrorCategory::WrongUsage, lost);
+    }
+    return model;
   } catch (const std::invalid_argument& error) {
     return refusal(setup.material, core::ErrorCategory::Failed, error.what());
   }

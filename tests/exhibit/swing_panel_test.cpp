@@ -109,8 +109,25 @@ TEST(SwingPanel, ShowsStatesBesideTheResonance) {
   expect_hand(both, "repulsive", 18.657, 64.34);
 }
 
+// A circle of 52 times the free amplitude: as far as the axes reach, to both sides of the origin.
+TEST(SwingPanel, ShowsThePartOfAWideCircleThatItsAxesReach) {
+  const render::ForcePanel panel = panel_of(sample_with("282kHz", ""), 25.0);
+  const auto arc = std::find_if(panel.curves.begin(), panel.curves.end(),
+                                [](const render::PlotCurve& curve) { return curve.label == "\u00d8 991 nm"; });
+  ASSERT_NE(arc, panel.curves.end()) << panel.curves.front().label;
+  ASSERT_GT(arc->retract.size(), 80U);
+  EXPECT_NEAR(arc->retract.front().place_nm, panel.place_min_nm, 1e-6);
+  EXPECT_NEAR(arc->retract.back().place_nm, panel.place_max_nm, 1e-6);
+  double steepest = 0.0;
+  for (const render::PlotPoint& point : arc->retract) steepest = std::max(steepest, point.force_nn);
+  EXPECT_GT(steepest, 0.2);
+  // a circle of three times the free amplitude is shown as a whole
+  const render::ForcePanel near = panel_of(sample_with("299kHz", ""), 25.0);
+  EXPECT_GT(near.force_max_nn, 2.8 * 20.0);
+}
+
 TEST(SwingPanel, StaysWithinItsAxes) {
-  for (const char* drive : {"", "299.5kHz", "310kHz"}) {
+  for (const char* drive : {"", "299.5kHz", "299kHz", "285kHz"}) {
     const curves::SampleModel model = sample_with(drive, "");
     for (const double z_nm : {12.0, 17.5, 18.5, 25.0}) {
       const render::ForcePanel panel = panel_of(model, z_nm);

@@ -24,6 +24,7 @@ namespace {
 using core::wrong_usage;
 
 constexpr double kDefaultRows = 400.0;
+constexpr const char* kInsteadOfAverages = "take direct, or in place of a sweep, which averages, a curve of this point";
 
 template <class Q>
 core::Result<Q> read_quantity(const char* option, const std::string& text, const physics::UnitList<Q>& units) {
@@ -66,8 +67,8 @@ core::Result<physics::TapMethod> read_method(const std::string& text, const phys
   if (text.empty()) return averages ? physics::TapMethod::Averaged : physics::TapMethod::Direct;
   if (text == "direct") return physics::TapMethod::Direct;
   if (averages) return physics::TapMethod::Averaged;
-  return wrong_usage(fmt::format("--method averaged needs a quality factor of at least {:g}, not {:g}; take direct",
-                                 physics::AveragedFlow::kLeastQuality, lever.quality_factor));
+  return wrong_usage(fmt::format("--method averaged needs a quality factor of at least {:g}, not {:g}; {}",
+                                 physics::AveragedFlow::kLeastQuality, lever.quality_factor, kInsteadOfAverages));
 }
 
 // States from both starts by direct integration, or all states of the averaged flow; `complete`: plus those that only
@@ -163,7 +164,8 @@ core::Result<void> compute(const PathOptions& path, const TappingOptions& option
     run.averages_lost_at = run.curve.lost_at;
     const std::string where = physics::format_quantity(*run.averages_lost_at, physics::kLengthUnits);
     if (!options.method.empty()) {
-      return wrong_usage(fmt::format("--method averaged: no averages follow the swing at {}; take direct", where));
+      return wrong_usage(
+          fmt::format("--method averaged: no averages follow the swing at {}; {}", where, kInsteadOfAverages));
     }
     core::log_line(fmt::format("no averages follow the swing at {}: integrating directly, which takes longer", where));
     run.method = physics::TapMethod::Direct;

@@ -10,6 +10,7 @@
 
 #include "curves/plot_units.h"
 #include "panels/panel_conventions.h"
+#include "physics/quantity_text.h"
 #include "physics/tapping/driven_lever.h"
 #include "physics/tapping/tap_surface.h"
 #include "physics/tapping/tap_table.h"
@@ -23,7 +24,8 @@ constexpr glm::vec3 kAttractiveColor{0.337F, 0.706F, 0.914F}, kRepulsiveColor{0.
     kNowColor{0.00F, 0.78F, 0.56F}, kEdgeColor{0.80F, 0.47F, 0.65F}, kCircleColor{0.6F, 0.6F, 0.6F};
 constexpr double kMargin = 0.08;  // fraction of the circle beside it
 constexpr int kPointsOfCircle = 90;
-constexpr double kWidest = 2.0;             // shown diameter of the circle, in free amplitudes
+constexpr double kWidest = 4.0;             // diameter of the largest circle shown as a whole, in free amplitudes
+constexpr double kShownOfWider = 2.0;       // extent of the dial in free amplitudes, if the circle is wider
 constexpr double kHeightsOfSwing = 2000.0;  // number of heights with separate portraits, per free amplitude
 
 render::PlotPoint end_of(double amplitude_m, double phase_rad) {
@@ -44,6 +46,11 @@ void add_hand(const std::string& label, const glm::vec3& color, const render::Pl
                           .retract = {{}, {end.place_nm / beyond, end.force_nn / beyond}}});
 }
 
+bool within_axes(const render::PlotPoint& point, const render::ForcePanel& panel) {
+  return point.place_nm >= panel.place_min_nm && point.place_nm <= panel.place_max_nm &&
+         point.force_nn >= panel.force_min_nn && point.force_nn <= panel.force_max_nn;
+}
+
 // Adds the parts of a line within the axes, in the same colour; the first one has the label.
 void add_within_axes(const std::vector<render::PlotPoint>& line, render::PlotCurve look, render::ForcePanel& panel) {
   const auto end_part = [&] {
@@ -54,9 +61,7 @@ void add_within_axes(const std::vector<render::PlotPoint>& line, render::PlotCur
     look.retract.clear();
   };
   for (const render::PlotPoint& point : line) {
-    const bool within = point.place_nm >= panel.place_min_nm && point.place_nm <= panel.place_max_nm &&
-                        point.force_nn >= panel.force_min_nn && point.force_nn <= panel.force_max_nn;
-    if (within) {
+    if (within_axes(point, panel)) {
       look.retract.push_back(point);
     } else {
       end_part();
@@ -71,6 +76,24 @@ std::vector<render::PlotPoint> circle(double diameter_m) {
   for (int i = 0; i <= kPointsOfCircle; ++i) {
     const double phase = std::numbers::pi * i / kPointsOfCircle;
     line.push_back(end_of(diameter_m * std::sin(phase), phase));
+  }
+  return line;
+}
+
+// The part within the axes of a circle that is wider: from one side through the origin to the other.
+std::vector<render::PlotPoint> arc_within(double diameter_m, const render::ForcePanel& panel) {
+  constexpr int kHalvings = 50, kPointsOfSide = kPointsOfCircle / 2;
+  const auto at = [diameter_m](double phase) { return end_of(diameter_m * std::sin(phase), phase); };
+  double inside = 0.0, outside = 0.5 * std::numbers::pi;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (within_axes(at(middle), panel) ? inside : outside) = middle;
+  }
+  std::vector<render::PlotPoint> line;
+  for (int i = -kPointsOfSide; i <= kPointsOfSide; ++i) {
+    const double turn = inside * i / kPointsOfSide;
+    // the left half lags by more than a right angle
+    line.push_back(at(turn < 0.0 ? std::numbers::pi + turn : turn));
   }
   return line;
 }
@@ -121,7 +144,9 @@ render::ForcePanel SwingDial::panel(const curves::SampleModel& model, const scen
                                     const Phrases& phrases) {
   const physics::DrivenLever lever = scene::tapping_lever(model.parameters);
   const double diameter_m = lever.quality_factor * lever.base_amplitude.si / lever.ratio;
-  const double shown_nm = std::min(diameter_m, kWidest * lever.free_amplitude.si) * curves::kNmPerM;
+  const double a0_m = lever.free_amplitude.si;
+  const bool whole = diameter_m <= kWidest * a0_m;
+  const double shown_nm = (whole ? diameter_m : kShownOfWider * a0_m) * curves::kNmPerM;
   render::ForcePanel panel;
   panel.title = phrases[Phrase::DialTitle];
   panel.words = {.approach = {},
@@ -136,7 +161,10 @@ render::ForcePanel SwingDial::panel(const curves::SampleModel& model, const scen
   const auto look = [](const std::string& label, const glm::vec3& color, bool faded) {
     return render::PlotCurve{.label = label, .color = color, .faded = faded, .approach = {}, .retract = {}};
   };
-  add_within_axes(circle(diameter_m), look("", kCircleColor, true), panel);
+  // of a circle that is shown in part the legend has the diameter
+  const std::string size = physics::format_quantity(physics::Length(diameter_m), physics::kLengthUnits, 3);
+  const std::string name = whole ? "" : "\u00d8 " + size;
+  add_within_axes(whole ? circle(diameter_m) : arc_within(diameter_m, panel), look(name, kCircleColor, true), panel);
 
   const double reach_m = std::hypot(panel.place_max_nm, panel.force_max_nn) / curves::kNmPerM;
   const physics::TapPortrait& portrait = this->portrait(model, tip.tip.z_m, reach_m);

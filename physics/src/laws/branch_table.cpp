@@ -17,6 +17,12 @@ std::uint64_t octave_bits(double u) { return std::bit_cast<std::uint64_t>(u) >> 
 double from_octave_bits(std::uint64_t bits) { return std::bit_cast<double>(bits << kDroppedBits); }
 std::uint64_t first_bits(int octave) { return static_cast<std::uint64_t>(octave + 1023) << (52 - kDroppedBits); }
 
+// The inverse of a power of two: the negative exponent.
+double inverse_of_power(double power_of_two) {
+  constexpr std::uint64_t kTwiceBias = std::uint64_t{2046} << 52;
+  return std::bit_cast<double>(kTwiceBias - std::bit_cast<std::uint64_t>(power_of_two));
+}
+
 double cubic(const BranchTable::Node& from, const BranchTable::Node& to, double width, double t) {
   const double rise = to.force_n - from.force_n;
   const double bend_from = from.slope * width - rise;
@@ -29,8 +35,12 @@ double in_graded(const BranchTable::Piece& piece, double distance) {
   const std::uint64_t bits = octave_bits(u), first = first_bits(piece.first_octave);
   const std::size_t cell = bits < first ? 0 : std::min<std::size_t>(bits - first + 1, piece.nodes.size() - 2);
   const double left = cell == 0 ? 0.0 : from_octave_bits(first + cell - 1);
-  const double right = std::min(from_octave_bits(first + cell), piece.last_u);
-  return cubic(piece.nodes[cell], piece.nodes[cell + 1], right - left, (u - left) / (right - left));
+  const double right = from_octave_bits(first + cell);
+  const BranchTable::Node &from = piece.nodes[cell], &to = piece.nodes[cell + 1];
+  if (right > piece.last_u) return cubic(from, to, piece.last_u - left, (u - left) / (piece.last_u - left));
+  // the width is a power of two, so that its inverse is exact, and much faster than a division
+  const double width = right - left;
+  return cubic(from, to, width, (u - left) * inverse_of_power(width));
 }
 
 double in_even(const BranchTable::Piece& piece, double spacing, double distance) {

@@ -12,15 +12,16 @@ namespace afm::physics {
 
 // Sums over a part of a swing whose height is bottom + 2 A sin^2(angle/2), and its bend.
 struct SwingSums {
-  double force = 0.0;    // integral of F, N
-  double cosine = 0.0;   // integral of F cos(angle)
-  double work = 0.0;     // integral of F sin(angle)
-  double viscous = 0.0;  // integral of sqrt(delta) (h'/A)^2 over the angle, sqrt(m)
-  double shift = 0.0;    // integral of F times the lever's response at angle 0 without the first harmonic, N
+  double force = 0.0;          // integral of F, N
+  double cosine = 0.0;         // integral of F cos(angle)
+  double work = 0.0;           // integral of F sin(angle)
+  double viscous = 0.0;        // integral of sqrt(delta) (h'/A)^2 over the angle, sqrt(m)
+  double shift = 0.0;          // integral of F times the lever's response at angle 0 without the first harmonic, N
+  double highest = -HUGE_VAL;  // largest force of a viscous sample on the way down, N
 
   SwingSums operator+(const SwingSums& other) const {
-    return {force + other.force, cosine + other.cosine, work + other.work, viscous + other.viscous,
-            shift + other.shift};
+    return {force + other.force,     cosine + other.cosine, work + other.work,
+            viscous + other.viscous, shift + other.shift,   std::max(highest, other.highest)};
   }
 };
 
@@ -51,6 +52,7 @@ struct SwingGeometry {
   HarmonicResponse response;
   SwingShape* shape = nullptr;  // bend of the swing, updated with the forces; null: none
   double ways = 1.0;            // fraction of both ways in which the force acts: 1, or one half
+  double friction = 0.0;        // viscous force over sqrt(delta) and the tip's speed in A, N/sqrt(m)
 
   double bend(double angle) const { return shape == nullptr ? 0.0 : shape->bend(angle); }
   double height(double angle) const {
@@ -90,7 +92,9 @@ struct SwingGeometry {
     if (h < zero_of_indentation) {
       const double speed = sine + bending / amplitude;
       const double speed_squared = bending == 0.0 ? sine_squared : speed * speed;
-      sums.viscous += weight * std::sqrt(zero_of_indentation - h) * speed_squared;
+      const double root = std::sqrt(zero_of_indentation - h);
+      sums.viscous += weight * root * speed_squared;
+      if (friction > 0.0) sums.highest = std::max(sums.highest, here + friction * root * speed);
     }
   }
 

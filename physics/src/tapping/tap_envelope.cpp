@@ -10,6 +10,7 @@
 
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/driven_lever.h"
+#include "physics/tapping/felt_swing.h"
 #include "physics/tapping/tap_surface.h"
 #include "physics/tapping/tap_table.h"
 
@@ -21,7 +22,6 @@ constexpr double kLastRow = static_cast<double>(kAmplitudes) - 1.000001;
 constexpr double kFinestGap = 0.1e-9;    // gap from contact up to which columns are evenly spaced, m
 constexpr int kColumnsOfOctave = 36;     // number of columns for each doubling of the gap beyond, evenly spaced
 constexpr double kFirstShare = 0.01;     // first row, as a share of the free amplitude
-constexpr double kLastShare = 1.25;      // last row, as a share of the free amplitude
 constexpr double kFarthestGap = 300e-9;  // gap of the last column, m
 constexpr double kLongestShare = 0.1;    // longest step, as a share of the relaxation
 constexpr double kLargestTurn = 0.25;    // largest turn per step, rad
@@ -77,7 +77,7 @@ TapEnvelope::TapEnvelope(AveragedFlow& flow, Length contact_height)
       free_sine_(std::sin(lever_->free_phase)) {
   const double a0 = lever_->free_amplitude.si;
   least_amplitude_m_ = kFirstShare * a0;
-  amplitude_step_m_ = (kLastShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
+  amplitude_step_m_ = (kLargestAveragedShare - kFirstShare) * a0 / static_cast<double>(kAmplitudes - 1);
   set_pace();
   least_x_ = std::floor(column_of(-2.0 * a0));
   last_column_ = std::ceil(column_of(kFarthestGap)) - least_x_;

@@ -33,9 +33,11 @@ SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law, SwingSha
   constexpr double kPi = std::numbers::pi;
   const double amplitude = swing.amplitude.si, bottom = swing.centre.si - amplitude;
   const HarmonicResponse response = shape != nullptr ? shape->response() : HarmonicResponse(1.0, swing.ratio);
-  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, response, shape};
+  const double friction = law.viscous * amplitude * swing.angular_rate;
+  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, response, shape, 1.0, friction};
   SwingGeometry one_way = geometry;
   one_way.ways = 0.5;
+  one_way.friction = 0.0;  // in contact it is on its way up
   if (shape != nullptr) shape->begin();
   const double pole = law.contact - (law.zero_of_indentation > 0.0 ? law.zero_of_indentation : kPoleBelowContact);
 
@@ -56,7 +58,7 @@ SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law, SwingSha
   result.virial = Energy(-amplitude * all.cosine / (2.0 * kPi));
   result.lost = Energy(amplitude * (falling.work - drawn.work) +
                        law.viscous * amplitude * amplitude * swing.angular_rate * all.viscous);
-  result.peak = Force(touches ? law.attached(bottom) : law.free(bottom));
+  result.peak = Force(std::max(touches ? law.attached(bottom) : law.free(bottom), all.highest));
   result.lowest = Length(bottom);
   result.contact_share = (in + off) / (2.0 * kPi);
   return result;

@@ -8,6 +8,7 @@
 #include "physics/quantity_text.h"
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/driven_lever.h"
+#include "physics/tapping/felt_swing.h"
 #include "physics/tapping/tap_surface.h"
 #include "physics/tapping/tap_table.h"
 #include "physics/tapping/tapping_model.h"
@@ -227,6 +228,20 @@ std::shared_ptr<const LawTables> tapped_law_tables(Law law, const std::shared_pt
   const Length faint_above = felt == walk.down.end() ? figures.z_joc : felt->z;
   tables.tapped_from = std::max({a0 + kClearOfSample, faint_above, figures.z_joc});
   return std::make_shared<const LawTables>(std::move(tables));
+}
+
+Length largest_felt_swing(const DrivenLever& lever) noexcept {
+  const bool averages = lever.quality_factor >= AveragedFlow::kLeastQuality;
+  return (averages ? kLargestAveragedShare : kLostSwingShare) * lever.free_amplitude;
+}
+
+Length largest_swing_of_hand(const std::shared_ptr<const TapSurface>& surface, const DrivenLever& lever,
+                             const LawTables& tables) {
+  Length largest = lever.free_amplitude;
+  if (lever.ratio <= 1.0) return largest;
+  const TappingCurve curve = tables.taps ? tables.taps->walk() : averaged_curve(surface, lever);
+  for (const TapPoint& point : curve.points) largest = std::max(largest, point.state.amplitude);
+  return largest;
 }
 
 }  // namespace afm::physics

@@ -7,6 +7,7 @@
 
 #include "physics/tapping/averaged_flow.h"
 #include "physics/tapping/driven_lever.h"
+#include "physics/tapping/felt_swing.h"
 #include "physics/tapping/tap_envelope.h"
 #include "physics/tapping/tap_surface.h"
 
@@ -115,7 +116,7 @@ TipResponse TappingModel::step(Length z) noexcept {
   }
   const Force mean(envelope_->mean_force_n());
   // written so that NaN fails
-  if (!(isfinite(mean) && amplitude() <= 2.0 * lever.free_amplitude)) {
+  if (!(isfinite(mean) && amplitude() <= kLostSwingShare * lever.free_amplitude)) {
     wait_for_lift();
     return response;
   }

@@ -238,7 +238,8 @@ TEST(TappingSweep, KeepsTheContactGapWhereTheAttractionIsSwept) {
 TEST(TappingSweep, SaysWhyAPointHasNoSwing) {
   const auto points = swept({"quality-factor=50:400:2"});
   ASSERT_EQ(points.size(), 2U) << points;
-  EXPECT_THAT(points[0]["refusal"].get<std::string>(), HasSubstr("quality factor of at least 100, not 50"));
+  EXPECT_THAT(points[0]["refusal"].get<std::string>(),
+              HasSubstr("quality factor of at least 100, not 50; take direct, or in place of a sweep"));
   EXPECT_TRUE(points[0]["regime"].is_null());
   EXPECT_EQ(points[1]["regime"], "hysteresis");
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "physics/tapping/averaged_flow.h"
+#include "physics/tapping/felt_swing.h"
 #include "physics/tapping/tapped_sample.h"
 #include "support/no_alloc.h"
 
@@ -73,6 +74,18 @@ TEST(TappedTables, HaveTheFoldsOfASlowWalk) {
   EXPECT_NEAR(figures.force_after_joc.si, push_at(18.72), 2e-9 * 3e-3);
   EXPECT_NEAR(tapped.tables->tapped_full.si, 2e-9, 1e-15);
   EXPECT_NEAR(tapped.tables->tapped_from.si, 22e-9, 1e-15);
+}
+
+// A stiff sample raises the resonance: of a drive at it or below it the swing becomes smaller, above it larger.
+TEST(TappedTables, HaveTheLargestSwingOfASlowHand) {
+  const auto largest = [](double ratio) {
+    const TappedSample sample{.ratio = ratio, .e_gpa = 50.0};
+    const auto tables = tapped_law_tables(Law::Dmt, sample.surface(), sample.lever());
+    return std::pair(largest_swing_of_hand(sample.surface(), sample.lever(), *tables),
+                     largest_felt_swing(sample.lever()));
+  };
+  for (const double ratio : {0.94, 1.0}) EXPECT_LE(largest(ratio).first.si, 1.01 * 20e-9) << ratio;
+  EXPECT_GT(largest(1.06).first, largest(1.06).second);
 }
 
 TEST(TappedTables, RefuseALeverThatFollowsTooSlowly) {
