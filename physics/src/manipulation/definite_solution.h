@@ -11,8 +11,8 @@ namespace afm::physics {
 // if it is not. Column by column, so that what is zero is skipped: bodies that do not touch have no common entry.
 template <class Matrix, class Vector>
 bool solve_definite(std::size_t size, Matrix& stiffness, const Vector& gradient, Vector& step) noexcept {
-  std::array<double, std::tuple_size_v<Matrix>> column;      // entries of a column below the diagonal, without zeros
-  std::array<std::size_t, std::tuple_size_v<Matrix>> rows;   // rows of these entries
+  std::array<double, std::tuple_size_v<Matrix>> column;     // entries of a column below the diagonal, without zeros
+  std::array<std::size_t, std::tuple_size_v<Matrix>> rows;  // rows of these entries
   for (std::size_t k = 0; k < size; ++k) {
     if (!(stiffness[k][k] > 0.0)) return false;
     const double pivot = stiffness[k][k] = std::sqrt(stiffness[k][k]);
