@@ -5,6 +5,17 @@
 #include <cmath>
 
 namespace afm::physics {
+namespace {
+
+// Derivative with a rod's turn of the way of a point of it along a unit vector.
+double turning_of(const HeapContacts::Body& body, const Flat& point, double ux, double uy) noexcept {
+  if (!body.is_rod()) return 0.0;
+  const double tangent = half_tangent(body.turned_m, body.half_m);
+  const double arm = ((point.x - body.at.x) * body.axis.x + (point.y - body.at.y) * body.axis.y) / body.half_m;
+  return arm / (1.0 + tangent * tangent) * (uy * body.axis.x - ux * body.axis.y);
+}
+
+}  // namespace
 
 void HeapContacts::begin(const Apex& base, const Apex& apex) noexcept {
   base_ = base;
@@ -118,14 +129,6 @@ HeapContacts::Nearest HeapContacts::nearest_of(const Pair& pair, const Outline& 
     return {nearest_on(first, end), end};
   }
   return {nearest_on(first, second.at), nearest_on(second, first.at)};  // nearest points, if one body is a sphere
-}
-
-// Derivative with a rod's turn of the way of a point of it along a unit vector.
-double HeapContacts::turning_of(const Body& body, const Flat& point, double ux, double uy) noexcept {
-  if (!body.is_rod()) return 0.0;
-  const double tangent = half_tangent(body.turned_m, body.half_m);
-  const double arm = ((point.x - body.at.x) * body.axis.x + (point.y - body.at.y) * body.axis.y) / body.half_m;
-  return arm / (1.0 + tangent * tangent) * (uy * body.axis.x - ux * body.axis.y);
 }
 
 // Changes are summed from differences: near rest they are smaller than what rounding leaves of the sums themselves.

@@ -176,21 +176,21 @@ class HeapContacts {
   static Nearest nearest_of(const Pair& pair, const Outline& first, const Outline& second) noexcept;
   // Nearest points where all parts are, and after a step.
   Nearest nearest_now(const Pair& pair) const noexcept {
-    if (pair.of_spheres) return {bodies_[pair.first].at, is_fixed(pair) ? pair.stays.at : bodies_[pair.second].at};
+    const bool stays = pair.second == kMostActive;
+    if (pair.of_spheres) return {bodies_[pair.first].at, stays ? pair.stays.at : bodies_[pair.second].at};
     return nearest_of(pair, bodies_[pair.first].outline(bodies_[pair.first].place()), second_of(pair));
   }
   Nearest nearest_then(const Pair& pair, const Step& step) const noexcept {
+    const bool stays = pair.second == kMostActive;
     if (pair.of_spheres) {
-      return {center_of(pair.first, step), is_fixed(pair) ? pair.stays.at : center_of(pair.second, step)};
+      const auto center = [&](std::size_t i) -> const Flat& {
+        return mover_[i] == kMostActive ? bodies_[i].at : step.to[mover_[i]].at;
+      };
+      return {center(pair.first), stays ? pair.stays.at : center(pair.second)};
     }
     return nearest_of(pair, bodies_[pair.first].outline(place_of(pair.first, step)),
-                      is_fixed(pair) ? pair.stays : bodies_[pair.second].outline(place_of(pair.second, step)));
+                      stays ? pair.stays : bodies_[pair.second].outline(place_of(pair.second, step)));
   }
-  static bool is_fixed(const Pair& pair) noexcept { return pair.second == kMostActive; }
-  const Flat& center_of(std::size_t body, const Step& step) const noexcept {
-    return mover_[body] == kMostActive ? bodies_[body].at : step.to[mover_[body]].at;
-  }
-  static double turning_of(const Body& body, const Flat& point, double ux, double uy) noexcept;
   double lever_change(const Apex& to) const noexcept;
   double tip_change(std::size_t body, const Place& to, const Apex& apex) const noexcept;
   double friction_change(std::size_t body, const Place& to) const noexcept;
