@@ -173,8 +173,7 @@ std::string energy_text(const scene::ScriptedPush& played) {
   }
   const physics::Energy spent = begun + last.work, rest = spent - last.lost - stored;
   if (rest.si > 0.01 * spent.si) {
-    text += fmt::format("{} more was lost in jumps of the tip among several particles\n",
-                        format_quantity(rest, kEnergyUnits, 4));
+    text += fmt::format("{} more was lost in jumps of the tip\n", format_quantity(rest, kEnergyUnits, 4));
   }
   if (last.attached > 0) {
     text +=
@@ -186,7 +185,7 @@ std::string energy_text(const scene::ScriptedPush& played) {
                         last.set_down, plural(last.set_down));
   }
   if (played.lagging > 0) text += fmt::format("{} ticks lagged behind the hand: it was too fast\n", played.lagging);
-  if (last.exhausted > 0) text += fmt::format("{} ticks ended before all spheres were at rest\n", last.exhausted);
+  if (last.exhausted > 0) text += fmt::format("{} ticks ended before all particles were at rest\n", last.exhausted);
   return text;
 }
 
@@ -201,20 +200,25 @@ std::string particles_text(const scene::ParticleSet& set, const ParticlesOptions
     const PushTick& t = played.ends[i].tick;
     text += fmt::format(
         "{:<10} {:<9} {:<10} {:<29} {}\n", i + 1, physics::kPushStates.at(static_cast<std::size_t>(t.state)).word,
-        t.particle == physics::kNoParticle ? "-" : fmt::format("{}", t.particle),
+        t.particle == physics::kNoParticle ? "-" : fmt::format("{}", t.particle + 1),
         format_quantity(magnitude(t.lateral), kForceUnits, 4), format_quantity(t.lost, kEnergyUnits, 4));
   }
-  text += "\nparticle   moved by     to\n";
+  const auto stays = [&](std::size_t i) {
+    return !(magnitude(played.at[i].position - set.particles[i].position).si > 0.0);
+  };
+  bool any = false;
   for (std::size_t i = 0; i < played.at.size(); ++i) {
     const auto& [to, turn] = played.at[i];
+    if (stays(i)) continue;
+    if (!std::exchange(any, true)) text += "\nparticle   moved by     to\n";
     const Length way = magnitude(to - set.particles[i].position);
-    if (!(way.si > 0.0)) continue;
     const bool turns = physics::turns_flat(set.setup.species[set.particles[i].species]);
     text +=
-        fmt::format("{:<10} {:<12} {}, {}{}\n", i, format_quantity(way, kLengthUnits, 4),
+        fmt::format("{:<10} {:<12} {}, {}{}\n", i + 1, format_quantity(way, kLengthUnits, 4),
                     format_quantity(to.x, kLengthUnits), format_quantity(to.y, kLengthUnits),
                     turns ? fmt::format(" at {:.1f} deg", physics::angle_rad(turn) * 180.0 / std::numbers::pi) : "");
   }
+  if (!any) text += "\nno particle has moved\n";
   const auto pattern =
       set.blind ? std::nullopt : scene::pattern_state(set, scene::pattern_of(set), played.judged_places());
   if (pattern) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "physics/manipulation/island.h"
@@ -65,8 +67,21 @@ SpeciesFigures figures_of(const scene::ParticleSet& set, const ParticleSpecies& 
   return f;
 }
 
+// Threshold of an unloaded sphere by a law; a file that lacks the law's number has none.
+std::string threshold_text(Force force, std::string_view lacking) {
+  return force.si > 0.0 ? format_quantity(force, kForceUnits, 4) : fmt::format("unknown without {}", lacking);
+}
+nlohmann::json threshold_json(Force force) { return force.si > 0.0 ? nlohmann::json(force.si) : nlohmann::json(); }
+
 std::string force_text(Force force) {
   return std::isfinite(force.si) ? format_quantity(force, kForceUnits, 4) : "none: it jams";
+}
+
+// The lever of the file beside the softest one; a sphere that rolls gives to a softer one.
+std::string lever_text(Stiffness normal, const SpeciesFigures& f) {
+  if (f.most_push >= f.rest.lateral) return fmt::format("pushes up to {}", force_text(f.most_push));
+  return fmt::format("of {} rides over it, with at most {}", format_quantity(normal, physics::kStiffnessUnits, 4),
+                     force_text(f.most_push));
 }
 
 // Figures of rods that a user needs before a push.
@@ -217,16 +232,16 @@ std::string species_figures_text(const scene::ParticleSet& set, std::size_t inde
       "  gives sideways at    {}, then {}: {}\n"
       "  unloaded, by law     area {}, amontons {}\n"
       "  gentle load          {}\n"
-      "  softest lever        {}; this one pushes up to {}\n"
+      "  softest lever        {}; this one {}\n"
       "  aim                  {} beside the middle for a push of 3 x {}\n"
       "  steering hand        up to {} on the sample\n"
       "  unit of pushing      {:.3g} kT per nm at room temperature\n",
       set.species[index].name, physics::text_of(species.law).word, physics::text_of(species.law).formula,
       format_quantity(f.adhesion, kForceUnits, 4), force_text(f.rest.lateral), force_text(f.moving.lateral),
-      physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word, format_quantity(f.area_law, kForceUnits, 4),
-      format_quantity(f.amontons_law, kForceUnits, 4), gentle, format_quantity(f.softest, physics::kStiffnessUnits, 4),
-      force_text(f.most_push), format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4),
-      format_quantity(f.rho, kLengthUnits, 4),
+      physics::kPushModes.at(static_cast<std::size_t>(f.rest.mode)).word,
+      threshold_text(f.area_law, "a shear_strength"), threshold_text(f.amontons_law, "a coefficient"), gentle,
+      format_quantity(f.softest, physics::kStiffnessUnits, 4), lever_text(set.setup.springs.normal, f),
+      format_quantity(physics::largest_offset(3.0) * f.rho, kLengthUnits, 4), format_quantity(f.rho, kLengthUnits, 4),
       format_quantity(physics::fastest_steering(f.rho, physics::kSteeringDelay), physics::kVelocityUnits, 4),
       f.kt_per_nm);
   return text + (species.sticks ? hold_text(set, species) : "") + sources_text(set.species[index]);
@@ -242,8 +257,8 @@ nlohmann::json species_figures_json(const scene::ParticleSet& set, std::size_t i
                       {"threshold_moving_N", f.moving.lateral.si},
                       {"normal_at_rest_N", f.rest.normal.si},
                       {"lift_at_rest_N", f.rest.lift.si},
-                      {"unloaded_threshold_by_area_N", f.area_law.si},
-                      {"unloaded_threshold_by_amontons_N", f.amontons_law.si},
+                      {"unloaded_threshold_by_area_N", threshold_json(f.area_law)},
+                      {"unloaded_threshold_by_amontons_N", threshold_json(f.amontons_law)},
                       {"gentle_load_N", f.gentle.si},
                       {"gentle_load_without_tip_friction_N", f.gentle_without_friction.si},
                       {"softest_lever_N_per_m", f.softest.si},
@@ -275,8 +290,8 @@ std::string picture_text(const scene::PushScript& script, const scene::ScriptedP
         look.measured ? format_quantity(magnitude(look.measured->position - look.shown.position), kLengthUnits, 3) +
                             " from its place in the picture"
                       : "not found";
-    text +=
-        fmt::format("second look at {:.1f} s, {} lines: particle {} {}\n", look.at.si, look.lines, look.particle, what);
+    text += fmt::format("second look at {:.1f} s, {} lines: particle {} {}\n", look.at.si, look.lines,
+                        look.particle + 1, what);
   }
   if (script.level > 1) {
     text += fmt::format("the sample has drifted by {}, at 0.05 nm/s (order of magnitude, estimated)\n",

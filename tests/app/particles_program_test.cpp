@@ -153,6 +153,26 @@ TEST(ParticlesCommand, PrintsWhatAUserMustKnow) {
   }
 }
 
+TEST(ParticlesCommand, CountsParticlesFromOneAndHasNoNumberThatTheFileLacks) {
+  EXPECT_THAT(particles("gold-row").out, HasSubstr("slides    1          126.5 pN"));
+  EXPECT_THAT(particles("gold-row").out, HasSubstr("\nparticle   moved by     to\n1  "));
+  const support::ScratchFolder folder;
+  std::string set = core::read_file(support::source("assets/particles/gold-row.toml")).value();
+  for (const char* key : {"coefficient = ", "rolling_distance = "}) {
+    const std::size_t at = set.find(key);
+    set.erase(at, set.find('\n', at) - at);
+  }
+  const std::string stiff = "\"10 MPa\"";
+  const std::string file = folder.write("heavy.toml", set.replace(set.find(stiff), stiff.size(), "\"10 GPa\""));
+  const ProgramResult heavy = particles(file);
+  EXPECT_EQ(heavy.exit_code, 0) << heavy.err;
+  EXPECT_THAT(heavy.out, HasSubstr("amontons unknown without a coefficient"));
+  EXPECT_THAT(heavy.out, HasSubstr("this one of 1 N/m rides over it, with at most "));
+  EXPECT_THAT(heavy.out, HasSubstr("\nno particle has moved\n"));
+  const auto figures = nlohmann::json::parse(particles(file + " --json").out)["species"][0]["figures"];
+  EXPECT_TRUE(figures["unloaded_threshold_by_amontons_N"].is_null());
+}
+
 // 20 nm below the sample with a lever of 1 N/m
 TEST(ParticlesCommand, NamesTheEnergyOfALeverThatIsBentAtTheStart) {
   const support::ScratchFolder folder;

@@ -113,6 +113,8 @@ TEST(ParticleSet, RefusesRodsThatCannotBe) {
   EXPECT_THAT(refusal(changed_tube("\"1 um\"", "\"-1 um\"")), HasSubstr("species.length: it must be positive"));
   EXPECT_THAT(refusal(changed_tube("\"1 um\"", "\"10 nm\"")), HasSubstr("species.length: length 10 nm is not within"));
   EXPECT_THAT(refusal(changed_tube("\"30 mN/m\"", "\"30 nN\"")), HasSubstr("species.friction_per_length: cannot read"));
+  EXPECT_THAT(refusal(changed_tube("\"30 mN/m\"", "\"1e-12 N/m\"")),
+              HasSubstr("species.friction_per_length: friction of the whole rod: 1e-06 pN is not within"));
   EXPECT_THAT(refusal(changed_tube("\"1 TPa\"", "\"0 TPa\"")),
               HasSubstr("species.particle_modulus: it must be positive"));
   EXPECT_THAT(refusal(changed_tube("angle_deg = 35", "")), HasSubstr("particle.angle_deg: is missing"));
@@ -149,9 +151,18 @@ TEST(ParticleSet, RefusesIslandsThatCannotBe) {
   };
   EXPECT_EQ(refusal(changed_islands("97.7 nm", "80 nm")), "accepted");
   EXPECT_THAT(refusal(changed_islands("97.7 nm", "-97.7 nm")), HasSubstr("species.radius: it must be positive"));
-  EXPECT_THAT(refusal(changed_islands("97.7 nm", "30 nm")), HasSubstr("species.radius: island radius 30 nm is not"));
-  EXPECT_THAT(refusal(changed_islands("\"50 nm\"", "\"0 nm\"")), HasSubstr("species.height: radius 0 m is not within"));
-  EXPECT_THAT(refusal(changed_islands("\"1 MPa\"", "\"0 MPa\"")), HasSubstr("species.shear_strength: "));
+  EXPECT_THAT(
+      refusal(changed_islands("97.7 nm", "30 nm")),
+      HasSubstr("species.radius: radius 30 nm is not within 37.5 nm to 10 um: an island must be at least 1.5 times"));
+  EXPECT_THAT(refusal(changed_islands("\"50 nm\"", "\"0 nm\"")),
+              HasSubstr("species.height: height 0 m is not within 2 nm to 20 um"));
+  EXPECT_THAT(
+      refusal(changed_islands("\"50 nm\"", "\"6 nm\"")),
+      HasSubstr("species.height: 6 nm is too low: an island must be at least as high as the tip's radius, 10 nm"));
+  for (const char* strength : {"0 MPa", "9 GPa"}) {
+    EXPECT_THAT(refusal(changed_islands("\"1 MPa\"", "\"" + std::string(strength) + "\"")),
+                HasSubstr("species.shear_strength: friction of the whole island: "));
+  }
   EXPECT_THAT(refusal(changed_islands("\"1 MPa\"", "\"1 nN\"")), HasSubstr("species.shear_strength: cannot read"));
   EXPECT_THAT(refusal(changed_islands("x = \"0 nm\"\ny = \"300 nm\"", "x = \"-260 nm\"\ny = \"-250 nm\"")),
               HasSubstr("overlap"));
@@ -327,7 +338,7 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   }
   EXPECT_EQ(refusal(without("coefficient", "area")), "accepted");
   EXPECT_THAT(refusal(changed("x = \"180 nm\"\ny = \"-20 nm\"", "x = \"10 nm\"\ny = \"0 nm\"")),
-              HasSubstr("particles 0 and 1 overlap"));
+              HasSubstr("line 41: particle.x: particles 1 and 2 overlap: their centres are 10 nm apart"));
   EXPECT_THAT(refusal(changed("x = \"180 nm\"", "x = \"180 mm\"")), HasSubstr("particle.x: 180 mm is not within"));
   EXPECT_THAT(refusal(changed("x = \"180 nm\"", "species = \"silver\"\nx = \"180 nm\"")),
               HasSubstr("silver is unknown; known are gold"));
@@ -335,7 +346,11 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_THAT(refusal(changed("speed = \"0.2 um/s\"", "speed = \"0 um/s\"")), HasSubstr("move.speed: 0"));
   EXPECT_THAT(refusal(changed("source = \"polycrystalline gold, bulk\", ", "")), HasSubstr("source"));
   EXPECT_THAT(refusal(""), HasSubstr("title: is missing"));
-  EXPECT_THAT(refusal(changed("x = \"30 nm\"", "x = \"400 nm\"")), HasSubstr("target.x: the target is outside"));
+  EXPECT_THAT(refusal(changed("x = \"30 nm\"", "x = \"400 nm\"")),
+              HasSubstr("target.x: the target is outside the rectangle of the particles, x from 0 m to 330 nm and y "
+                        "from -160 nm to 170 nm"));
+  EXPECT_THAT(refusal(changed("x = \"30 nm\"\ny = \"0 nm\"", "x = \"30 nm\"\ny = \"500 nm\"")),
+              HasSubstr("target.y: the target is outside"));
   EXPECT_THAT(refusal(changed("x = \"30 nm\"", "x = \"51 nm\"")), HasSubstr("nearer to target 1 than"));
   EXPECT_EQ(refusal(changed("x = \"30 nm\"", "x = \"50 nm\"")), "accepted") << "two that touch";
   EXPECT_THAT(refusal(changed("[[target]]", "[[target]]\nx = \"10 nm\"\ny = \"-90 nm\"\n\n[[target]]")),

@@ -66,7 +66,7 @@ class PatternTaskTest : public ::testing::Test {
 };
 
 TEST_F(PatternTaskTest, CountsAllThatAScanSweepsAsOnePush) {
-  swept_ = true;
+  swept_ = guided_ = true;
   for (int i = 0; i < 20; ++i) {
     if (i % 3 == 0) ++places_;
     tick(kHighM);
@@ -74,6 +74,8 @@ TEST_F(PatternTaskTest, CountsAllThatAScanSweepsAsOnePush) {
   swept_ = false;
   wait(10);
   EXPECT_EQ(score().strokes, 1U);
+  EXPECT_EQ(score().guided, 0U) << "a groove guides the hand alone";
+  guided_ = false;
   order(EventKind::PushTakenBack);
   EXPECT_EQ(score().undos, 1U);
   stroke();

@@ -162,10 +162,10 @@ TEST(SharedParticles, AreRefusedWithAReason) {
             "the place of a particle in the shared scene is invalid");
   EXPECT_EQ(
       refused([](SharedParticles& p) { p.particles[1].x_m = -79e-9; }),
-      "the particles of the shared scene: particles 0 and 1 overlap: their centres are 1 nm apart and touch at 50 "
+      "the particles of the shared scene: particles 1 and 2 overlap: their centres are 1 nm apart and touch at 50 "
       "nm");
   EXPECT_EQ(refused([](SharedParticles& p) { p.particles[1].species = 1; }),
-            "the particles of the shared scene: particle 1 is of an unknown species");
+            "the particles of the shared scene: particle 2 is of an unknown species");
   EXPECT_EQ(refused([](SharedParticles& p) { p.species[0].law = static_cast<afm::physics::ParticleLaw>(9); }),
             "the name or the law of particle species 0 is invalid");
   EXPECT_EQ(refused([](SharedParticles& p) { p.species[0].sticks = 2; }),

@@ -293,7 +293,7 @@ TEST(ReplayOfParticles, RefusesAFileWhoseParticlesCannotBe) {
   ASSERT_TRUE(save_session(session, path));
   const auto overlap = load_session(path);
   ASSERT_FALSE(overlap);
-  EXPECT_THAT(overlap.error().message, HasSubstr("particles 0 and 1 overlap"));
+  EXPECT_THAT(overlap.error().message, HasSubstr("particles 1 and 2 overlap"));
   session = recording.sessions.front();
   session.hand_m_per_m = session.hand_n_per_n = 1.0;
   session.particles->pages.clear();

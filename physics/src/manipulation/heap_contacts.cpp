@@ -5,6 +5,17 @@
 #include <cmath>
 
 namespace afm::physics {
+namespace {
+
+// Derivative with a rod's turn of the way of a point of it along a unit vector.
+double turning_of(const HeapContacts::Body& body, const Flat& point, double ux, double uy) noexcept {
+  if (!body.is_rod()) return 0.0;
+  const double tangent = half_tangent(body.turned_m, body.half_m);
+  const double arm = ((point.x - body.at.x) * body.axis.x + (point.y - body.at.y) * body.axis.y) / body.half_m;
+  return arm / (1.0 + tangent * tangent) * (uy * body.axis.x - ux * body.axis.y);
+}
+
+}  // namespace
 
 void HeapContacts::begin(const Apex& base, const Apex& apex) noexcept {
   base_ = base;
@@ -17,6 +28,7 @@ bool HeapContacts::add(const Body& body) noexcept {
   if (body.near_tip) near_[near_count_++] = count_;
   link_count_[count_] = 0;
   mover_[count_] = kMostActive;
+  particles_[count_] = body.particle;
   bodies_[count_++] = body;
   return true;
 }
@@ -28,21 +40,23 @@ bool HeapContacts::add(const Pair& pair) noexcept {
   const auto number = static_cast<std::uint16_t>(pair_count_);
   links_[pair.first][link_count_[pair.first]++] = number;
   if (!stays) links_[pair.second][link_count_[pair.second]++] = number;
-  pairs_[pair_count_++] = pair;
+  pairs_[pair_count_] = pair;
+  pairs_[pair_count_++].of_spheres =
+      bodies_[pair.first].is_sphere() &&
+      (stays ? !(pair.stays.half_m > 0.0) && !(pair.stays.core_m > 0.0) : bodies_[pair.second].is_sphere());
   return true;
 }
 
 std::size_t HeapContacts::find(std::size_t particle) const noexcept {
   std::size_t i = 0;
-  while (i < count_ && bodies_[i].particle != particle) ++i;
+  while (i < count_ && particles_[i] != particle) ++i;
   return i;
 }
 
 void HeapContacts::find_contacts() noexcept {
   for (const std::size_t i : near_tip()) tips_[i] = contact_at(i, bodies_[i].place(), apex_);
   for (std::size_t p = 0; p < pair_count_; ++p) {
-    const Body& first = bodies_[pairs_[p].first];
-    const Nearest nearest = nearest_of(pairs_[p], first.outline(first.place()), second_of(pairs_[p]));
+    const Nearest nearest = nearest_now(pairs_[p]);
     apart_m_[p] = distance_between(nearest.first, nearest.second);
   }
 }
@@ -115,18 +129,6 @@ HeapContacts::Nearest HeapContacts::nearest_of(const Pair& pair, const Outline& 
     return {nearest_on(first, end), end};
   }
   return {nearest_on(first, second.at), nearest_on(second, first.at)};  // nearest points, if one body is a sphere
-}
-
-// Derivative with a rod's turn of the way of a point of it along a unit vector.
-double HeapContacts::turning_of(const Body& body, const Flat& point, double ux, double uy) noexcept {
-  if (!body.is_rod()) return 0.0;
-  const double tangent = half_tangent(body.turned_m, body.half_m);
-  const double arm = ((point.x - body.at.x) * body.axis.x + (point.y - body.at.y) * body.axis.y) / body.half_m;
-  return arm / (1.0 + tangent * tangent) * (uy * body.axis.x - ux * body.axis.y);
-}
-
-bool HeapContacts::counts_to(std::size_t i, std::size_t p) const noexcept {
-  return pairs_[p].first == i || mover_[pairs_[p].first] == kMostActive;
 }
 
 // Changes are summed from differences: near rest they are smaller than what rounding leaves of the sums themselves.
@@ -210,17 +212,14 @@ double HeapContacts::friction_change(std::size_t i, const Place& there) const no
 
 double HeapContacts::pair_change(std::size_t p, const Step& step) noexcept {
   const Pair& pair = pairs_[p];
-  const bool stays = pair.second == kMostActive;
-  const Body& first = bodies_[pair.first];
-  const Nearest now = nearest_of(pair, first.outline(place_of(pair.first, step)),
-                                 stays ? pair.stays : bodies_[pair.second].outline(place_of(pair.second, step)));
+  const Nearest now = nearest_then(pair, step);
   const Flat &a1 = now.first, &b1 = now.second;
   const double apart0 = apart_m_[p], apart1 = apart_then_m_[p] = distance_between(a1, b1);
   const double depth0 = std::max(0.0, pair.distance_m - apart0), depth1 = std::max(0.0, pair.distance_m - apart1);
   if (!(depth0 + depth1 > 0.0)) return 0.0;
   double change = depth1 - depth0;
   if (depth0 > 0.0 && depth1 > 0.0) {
-    const auto [a0, b0] = nearest_of(pair, first.outline(first.place()), second_of(pair));
+    const auto [a0, b0] = nearest_now(pair);
     const double dx = (a1.x - a0.x) - (b1.x - b0.x), dy = (a1.y - a0.y) - (b1.y - b0.y);
     const double squares = dx * ((a1.x - b1.x) + (a0.x - b0.x)) + dy * ((a1.y - b1.y) + (a0.y - b0.y));
     change = -squares / (apart0 + apart1);
@@ -247,9 +246,10 @@ HeapContacts::Touch HeapContacts::touch_of(std::size_t p) const noexcept {
   const Pair& pair = pairs_[p];
   const double apart = apart_m_[p], depth = pair.distance_m - apart;
   if (!(apart > 0.0)) return {};
-  const Body& body = bodies_[pair.first];
-  const auto [first, second] = nearest_of(pair, body.outline(body.place()), second_of(pair));
+  const auto [first, second] = nearest_now(pair);
   const double ux = (first.x - second.x) / apart, uy = (first.y - second.y) / apart;
+  if (pair.of_spheres) return {.overlap_m = depth, .apart_m = apart, .u = {ux, uy}};
+  const Body& body = bodies_[pair.first];
   const bool stays = pair.second == kMostActive;
   return {.overlap_m = depth,
           .apart_m = apart + body.core_m + (stays ? pair.stays.core_m : bodies_[pair.second].core_m),

@@ -51,6 +51,7 @@ class HeapContacts {
     TipPull pull;  // adhesion of the tip; positive: the tip also pulls
 
     bool is_rod() const { return half_m > 0.0; }
+    bool is_sphere() const { return !is_rod() && !(core_m > 0.0); }
     bool moved() const { return at.x != start.x || at.y != start.y || turned_m != 0.0; }
     Place place() const { return {at, turned_m, axis}; }
     Outline outline(const Place& there) const { return {there.at, there.axis, half_m, core_m}; }
@@ -66,6 +67,7 @@ class HeapContacts {
     Outline stays;
     double distance_m = 0.0;
     int first_end = 0, second_end = 0;
+    bool of_spheres = false;  // true: the nearest points are the centres; set when the pair is added
   };
 
   // Contact of tip and body.
@@ -140,7 +142,7 @@ class HeapContacts {
   std::span<const std::size_t> near_tip() const noexcept { return {near_.data(), near_count_}; }
   const Pair& pair(std::size_t p) const noexcept { return pairs_[p]; }
   bool has_rod(std::size_t p) const noexcept {
-    return bodies_[pairs_[p].first].is_rod() || second_of(pairs_[p]).half_m > 0.0;
+    return !pairs_[p].of_spheres && (bodies_[pairs_[p].first].is_rod() || second_of(pairs_[p]).half_m > 0.0);
   }
   std::size_t pair_count() const noexcept { return pair_count_; }
   std::span<const std::uint16_t> pairs_of(std::size_t body) const noexcept {
@@ -149,7 +151,9 @@ class HeapContacts {
   // Number of a body among those that were chosen; kMostActive if it was not.
   std::size_t mover(std::size_t body) const noexcept { return body < kMostActive ? mover_[body] : kMostActive; }
   // True if a pair counts for this mover: once, if both of its bodies move.
-  bool counts_to(std::size_t body, std::size_t pair) const noexcept;
+  bool counts_to(std::size_t body, std::size_t pair) const noexcept {
+    return pairs_[pair].first == body || mover_[pairs_[pair].first] == kMostActive;
+  }
 
  private:
   // Tip and nearest point of a body's axis, seen from the apex.
@@ -170,7 +174,23 @@ class HeapContacts {
   Place place_of(std::size_t body, const Step& step) const noexcept;
   Outline second_of(const Pair& pair) const noexcept;
   static Nearest nearest_of(const Pair& pair, const Outline& first, const Outline& second) noexcept;
-  static double turning_of(const Body& body, const Flat& point, double ux, double uy) noexcept;
+  // Nearest points where all parts are, and after a step.
+  Nearest nearest_now(const Pair& pair) const noexcept {
+    const bool stays = pair.second == kMostActive;
+    if (pair.of_spheres) return {bodies_[pair.first].at, stays ? pair.stays.at : bodies_[pair.second].at};
+    return nearest_of(pair, bodies_[pair.first].outline(bodies_[pair.first].place()), second_of(pair));
+  }
+  Nearest nearest_then(const Pair& pair, const Step& step) const noexcept {
+    const bool stays = pair.second == kMostActive;
+    if (pair.of_spheres) {
+      const auto center = [&](std::size_t i) -> const Flat& {
+        return mover_[i] == kMostActive ? bodies_[i].at : step.to[mover_[i]].at;
+      };
+      return {center(pair.first), stays ? pair.stays.at : center(pair.second)};
+    }
+    return nearest_of(pair, bodies_[pair.first].outline(place_of(pair.first, step)),
+                      stays ? pair.stays : bodies_[pair.second].outline(place_of(pair.second, step)));
+  }
   double lever_change(const Apex& to) const noexcept;
   double tip_change(std::size_t body, const Place& to, const Apex& apex) const noexcept;
   double friction_change(std::size_t body, const Place& to) const noexcept;
@@ -179,6 +199,7 @@ class HeapContacts {
   PushSprings springs_;
   Apex base_, apex_;
   std::array<Body, kMostActive> bodies_{};
+  std::array<std::size_t, kMostActive> particles_{};  // particle of each body
   std::array<Pair, kMostPairs> pairs_{};
   std::array<std::size_t, kMostActive> near_{};
   std::array<TipContact, kMostActive> tips_{}, tips_then_{};                // tip contacts: now, after the newest step

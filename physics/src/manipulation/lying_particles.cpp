@@ -80,12 +80,6 @@ Flat LyingParticles::free_place(std::size_t i) const noexcept {
   }
 }
 
-bool LyingParticles::is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept {
-  if (half_m(i) > 0.0 || half_m(j) > 0.0 || core_m(i) > 0.0) return apart_m(i, j) > most_m;
-  const double x = x_[i] - x_[j], y = y_[i] - y_[j];
-  return x * x + y * y > most_m * most_m;
-}
-
 double LyingParticles::pair_j(std::size_t i, std::size_t j, const Stiffness& contact) const noexcept {
   const auto energy_j = [&](double distance_m) {
     const double depth_m = touching_m(i, j) - distance_m;

@@ -43,7 +43,25 @@ class LyingParticles {
     return touching_m_[species_[i] * half_m_.size() + species_[j]];
   }
   double apart_m(std::size_t i, std::size_t j) const noexcept { return distance_between(outline(i), outline(j)); }
-  bool is_beyond(std::size_t i, std::size_t j, double most_m) const noexcept;  // true: farther apart than `most_m`
+
+  // Calls visit(particle) for every other particle that is at most `gap_m` farther away than if it touched particle i.
+  template <class Visit>
+  void neighbours(std::size_t i, double gap_m, const Visit& visit) const noexcept {
+    const double* const touching_m = touching_m_.data() + species_[i] * half_m_.size();
+    const double x_m = x_[i], y_m = y_[i], half_of_i_m = half_m(i), core_of_i_m = core_m(i);
+    grid_.near(x_m, y_m, [&](std::size_t j) {
+      if (j == i) return;
+      const std::size_t species = species_[j];
+      const double most_m = touching_m[species] + gap_m;
+      if (half_of_i_m > 0.0 || half_m_[species] > 0.0 || core_of_i_m > 0.0) {
+        if (apart_m(i, j) > most_m) return;
+      } else {
+        const double x = x_m - x_[j], y = y_m - y_[j];
+        if (x * x + y * y > most_m * most_m) return;
+      }
+      visit(j);
+    });
+  }
 
   // Energy of two particles that press each other.
   double pair_j(std::size_t i, std::size_t j, const Stiffness& contact) const noexcept;

@@ -10,6 +10,7 @@
 #include "physics/adhesion_map.h"
 #include "physics/contact_parameters.h"
 #include "physics/jkr.h"
+#include "physics/manipulation/particle_limits.h"
 #include "physics/quantity_text.h"
 #include "require_range.h"
 
@@ -19,7 +20,6 @@ namespace {
 using std::numbers::pi;
 
 constexpr double kLargestPush = 1e-3;  // force beyond the range of any lever, N
-constexpr double kFlattest = 1.5;      // smallest ratio of an island's radius to half its height
 constexpr double kHeld = 1.0 - 1e-9;   // share of F_ad up to which a sphere stays on the sample
 
 PushBalance jammed() {
@@ -78,7 +78,7 @@ PushBalance roll(const ParticleSpecies& species, const TipGrip& grip, double sin
 }  // namespace
 
 void validate(const ParticleSpecies& s) {
-  require_range("radius", s.contact.tip_radius, Length(1e-9), Length(1e-5), kLengthUnits);
+  require_range("radius", s.contact.tip_radius, kThinnestParticle, kThickestParticle, kLengthUnits);
   require_range("length", s.length, is_rod(s) ? s.contact.tip_radius : Length(0.0), Length(1e-4), kLengthUnits);
   if (is_rod(s) && s.law != ParticleLaw::Measured) {
     throw UnphysicalValue("law", "the friction of a rod is measured: its law cannot be another");
@@ -86,7 +86,7 @@ void validate(const ParticleSpecies& s) {
   if (is_island(s) && (s.law != ParticleLaw::Measured || is_rod(s) || s.sticks || s.rolling_distance.si != 0.0)) {
     throw UnphysicalValue("island_radius", "an island has a measured friction, and neither rolls nor sticks to a tip");
   }
-  require_range("island_radius", s.island_radius, is_island(s) ? kFlattest * s.contact.tip_radius : Length(0.0),
+  require_range("island_radius", s.island_radius, is_island(s) ? kFlattestIsland * s.contact.tip_radius : Length(0.0),
                 Length(1e-5), kLengthUnits);
   if (!turns_flat(s)) {
     require_range("reduced_modulus", s.contact.reduced_modulus, Pressure(1e5), Pressure(1e13), kPressureUnits);

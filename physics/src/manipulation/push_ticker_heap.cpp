@@ -42,9 +42,10 @@ bool PushedParticles::Ticker::add_body(std::size_t i, bool near_tip) noexcept {
 bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, std::size_t particle) noexcept {
   HeapContacts::Pair pair{.first = first,
                           .second = second,
-                          .stays = lying_.outline(particle),
+                          .stays = {},
                           .distance_m = lying_.touching_m(heap_.body(first).particle, particle)};
-  if (!(heap_.body(first).is_rod() && pair.stays.half_m > 0.0)) return heap_.add(pair);
+  if (second == HeapContacts::kMostActive) pair.stays = lying_.outline(particle);
+  if (!(heap_.body(first).is_rod() && lying_.half_m(particle) > 0.0)) return heap_.add(pair);
   bool fits = true;
   for (const auto& [of_first, of_second] : {std::pair{-1, 0}, std::pair{1, 0}, std::pair{0, -1}, std::pair{0, 1}}) {
     pair.first_end = of_first;
@@ -58,8 +59,7 @@ bool PushedParticles::Ticker::add_pairs(std::size_t first, std::size_t second, s
 bool PushedParticles::Ticker::gather_pairs_of(std::size_t first) noexcept {
   const std::size_t i = heap_.body(first).particle;
   bool fits = true;
-  lying_.near(lying_.position(i), [&](std::size_t j) {
-    if (j == i || lying_.is_beyond(i, j, lying_.touching_m(i, j) + 2.0 * reach_.heap_m)) return;
+  lying_.neighbours(i, 2.0 * reach_.heap_m, [&](std::size_t j) {
     std::size_t second = heap_.find(j);
     if (second == heap_.size() && !add_body(j, false)) second = HeapContacts::kMostActive;
     if (second < first) return;  // known from the other side

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "outline.h"
+#include "physics/manipulation/particle_limits.h"
 #include "physics/manipulation/tip_hold.h"
 #include "physics/quantity_text.h"
 #include "push_ticker.h"
@@ -105,10 +106,11 @@ void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particl
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const PlacedParticle& a = particles[i];
     if (a.species >= setup.species.size()) {
-      throw std::invalid_argument("particle " + std::to_string(i) + " is of an unknown species");
+      throw UnplaceableParticle(i, "particle " + std::to_string(i + 1) + " is of an unknown species");
     }
-    if (!std::isfinite(a.angle_rad))
-      throw std::invalid_argument("the angle of particle " + std::to_string(i) + " is not finite");
+    if (!std::isfinite(a.angle_rad)) {
+      throw UnplaceableParticle(i, "the angle of particle " + std::to_string(i + 1) + " is not finite");
+    }
     for (std::size_t j = 0; j < i; ++j) {
       const PlacedParticle& b = particles[j];
       const double touching_m =
@@ -118,10 +120,10 @@ void validate(const PushSetup& setup, const std::vector<PlacedParticle>& particl
       const double apart_m = cross(of_a, of_b) ? 0.0 : distance_between(of_a, of_b);
       if (!(apart_m >= touching_m * (1.0 - kOverlapAllowed))) {
         const std::string what = of_a.half_m > 0.0 || of_b.half_m > 0.0 ? "axes" : "centres";
-        throw std::invalid_argument("particles " + std::to_string(j) + " and " + std::to_string(i) +
-                                    " overlap: their " + what + " are " +
-                                    format_quantity(Length(apart_m), kLengthUnits) + " apart and touch at " +
-                                    format_quantity(Length(touching_m), kLengthUnits));
+        throw UnplaceableParticle(i, "particles " + std::to_string(j + 1) + " and " + std::to_string(i + 1) +
+                                         " overlap: their " + what + " are " +
+                                         format_quantity(Length(apart_m), kLengthUnits) + " apart and touch at " +
+                                         format_quantity(Length(touching_m), kLengthUnits));
       }
     }
   }

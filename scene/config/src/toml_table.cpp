@@ -106,6 +106,7 @@ glm::dquat TomlTable::rotation(std::string_view key) const {
 }
 
 TomlTable TomlTable::table(std::string_view key, std::string_view how) const {
+  if (!has(key)) refuse(key, fmt::format("is missing; it is written {}", how));
   const toml::table* const inner = node(key).as_table();
   if (inner == nullptr) refuse(key, fmt::format("must be written {}", how));
   return TomlTable(*inner, full(key));

@@ -39,6 +39,7 @@ void read_sweep(const TomlTable& table, const physics::LeverBase& from, HandMove
     if (table.has("line_spacing")) table.refuse("line_spacing", "belongs to a sweep_width");
     return;
   }
+  if (!table.has("line_spacing")) table.refuse("line_spacing", "is missing; a sweep needs the distance of its lines");
   move.sweep_width = within(table, "sweep_width", physics::kLengthUnits, kLeastSweep, kWidestPlace);
   move.line_spacing = within(table, "line_spacing", physics::kLengthUnits, kLeastSweep, kWidestPlace);
   const double lines = lines_of(from, move);

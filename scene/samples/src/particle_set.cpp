@@ -13,12 +13,12 @@
 
 #include "blind_task_file.h"
 #include "hand_moves.h"
-#include "particle_field.h"
 #include "physics/contact_parameters.h"
 #include "physics/elasticity.h"
 #include "physics/manipulation/rod.h"
 #include "scene/config/toml_file.h"
 #include "scene/config/toml_table.h"
+#include "setup_checks.h"
 #include "soft_sample.h"
 #include "sourced_values.h"
 
@@ -40,12 +40,10 @@ struct KeyOfField {
 constexpr std::array kSpeciesKeys{KeyOfField{"tip_modulus", "particle_modulus"},
                                   KeyOfField{"tip_poisson_ratio", "particle_poisson_ratio"}};
 
-constexpr std::array kIslandKeys{KeyOfField{"radius", "height"}, KeyOfField{"island_radius", "radius"},
-                                 KeyOfField{"measured_threshold", "shear_strength"}};
-
-std::string_view key_of(std::string_view field, std::span<const KeyOfField> keys) {
-  const auto at = std::find_if(keys.begin(), keys.end(), [=](const KeyOfField& k) { return k.field == field; });
-  return at == keys.end() ? field : at->key;
+std::string_view key_of(std::string_view field) {
+  const auto at =
+      std::find_if(kSpeciesKeys.begin(), kSpeciesKeys.end(), [=](const KeyOfField& k) { return k.field == field; });
+  return at == kSpeciesKeys.end() ? field : at->key;
 }
 
 // A rod's friction is given per length, and its stiffness limits how long it may be: it is pushed as a rigid body.
@@ -71,7 +69,7 @@ physics::ParticleSpecies read_rods(const TomlTable& table, SpeciesEntry& entry) 
   try {
     physics::validate(species);
   } catch (const physics::UnphysicalValue& error) {
-    table.refuse(error.field() == "measured_threshold" ? "friction_per_length" : error.field(), error.what());
+    refuse_rod(table, error);
   }
   const Length longest = physics::longest_rigid_rod(friction, modulus, species.contact.tip_radius);
   if (species.length > longest) {
@@ -102,7 +100,7 @@ physics::ParticleSpecies read_islands(const TomlTable& table, SpeciesEntry& entr
   try {
     physics::validate(species);
   } catch (const physics::UnphysicalValue& error) {
-    table.refuse(key_of(error.field(), kIslandKeys), error.what());
+    refuse_island(table, error, 2.0 * species.contact.tip_radius);
   }
   entry.sources = values.take_sources();
   return species;
@@ -165,7 +163,7 @@ physics::ParticleSpecies read_species(const TomlTable& table, SpeciesEntry& entr
     species.contact.reduced_modulus = physics::reduced_modulus(particle, sample);
     physics::validate(species);
   } catch (const physics::UnphysicalValue& error) {
-    const std::string_view key = key_of(error.field(), kSpeciesKeys);
+    const std::string_view key = key_of(error.field());
     table.refuse(key, message_of(error, key));
   }
   entry.sources = values.take_sources();
@@ -184,24 +182,6 @@ void read_lever(const TomlTable& table, ParticleSet& set, SourcedValues& values)
   set.setup.springs = {values.quantity("lateral_spring", physics::kStiffnessUnits),
                        values.quantity("normal_spring", physics::kStiffnessUnits),
                        values.quantity("contact_stiffness", physics::kStiffnessUnits)};
-}
-
-// Checks the setup, and reports a fault with the table and key of its field.
-void check_setup(const ParticleSet& set, const TomlTable& top, const TomlTable& tip, const TomlTable& lever) {
-  try {
-    physics::validate(set.setup);
-  } catch (const physics::UnphysicalValue& error) {
-    const std::string& field = error.field();
-    if (field == "tip_radius") tip.refuse("radius", error.what());
-    if (field == "half_angle") tip.refuse("half_angle_deg", error.what());
-    if (field == "tip_friction") tip.refuse("friction", error.what());
-    if (field == "tip_adhesion" || field == "island_radius") top.refuse("species", error.what());
-    if (field == "radius") {
-      top.refuse("species",
-                 std::string(error.what()) + ": radii must be at least half the tip's and half the largest particle's");
-    }
-    lever.refuse(field, error.what());
-  }
 }
 
 // Angle of a rod from x; required.
@@ -247,7 +227,6 @@ void read_targets(const TomlTable& top, ParticleSet& set) {
     smallest = std::min(smallest, physics::outer_radius(species));
   }
   const Length touching = physics::touching_distance(smallest, smallest);
-  const ParticleField field = field_of(set);
   const bool rods = has_movable(set, true);
   if (rods && has_movable(set, false)) {
     top.refuse("target", "a pattern is one of spheres or one of rods, and both can be moved: pin one kind");
@@ -259,7 +238,7 @@ void read_targets(const TomlTable& top, ParticleSet& set) {
     if (set.targets.size() == movable) {
       table.refuse("x", fmt::format("there are more targets than the {} particles that can be moved", movable));
     }
-    if (!field.holds(target)) table.refuse("x", "the target is outside the rectangle of the particles");
+    check_within_field(table, set, target, "the target");
     for (std::size_t i = 0; i < set.targets.size(); ++i) {
       if (physics::magnitude(set.targets[i].position - target) >= (1.0 - kRounding) * touching) continue;
       table.refuse("x", fmt::format("the target is nearer to target {} than two particles that touch, {}", i + 1,
@@ -274,7 +253,7 @@ void read_sticky_pad(const TomlTable& table, const Pad& pad, ParticleSet& set) {
   if (!has_movable(set, false)) {
     table.refuse("work_of_adhesion", "a pad that spheres stick to needs a sphere that can be moved");
   }
-  if (!field_of(set).holds(pad.middle)) table.refuse("x", "the pad's middle is outside the rectangle of the particles");
+  check_within_field(table, set, pad.middle, "the pad's middle");
   SourcedValues values(table);
   const physics::SurfaceEnergy work = values.quantity("work_of_adhesion", physics::kSurfaceEnergyUnits);
   set.setup.pads.push_back({pad.middle, pad.half_size, work});
@@ -314,15 +293,20 @@ void read_pads(const TomlTable& top, ParticleSet& set) {
 }
 
 void read_particles(const TomlTable& top, ParticleSet& set) {
-  const TomlTable tip = top.table("tip", "[tip]"), lever = top.table("lever", "[lever]");
-  SourcedValues tip_values(tip), lever_values(lever);
-  read_tip(tip, set, tip_values);
-  read_lever(lever, set, lever_values);
+  SetTables tables{.top = top,
+                   .tip = top.table("tip", "[tip]"),
+                   .lever = top.table("lever", "[lever]"),
+                   .species = {},
+                   .particles = {}};
+  SourcedValues tip_values(tables.tip), lever_values(tables.lever);
+  read_tip(tables.tip, set, tip_values);
+  read_lever(tables.lever, set, lever_values);
   set.sources = tip_values.take_sources();
   for (SourcedValue& source : set.sources) source.key = "tip_" + source.key;
   for (SourcedValue& source : lever_values.take_sources()) set.sources.push_back(std::move(source));
 
-  for (const TomlTable& table : top.tables("species", kMaxSpecies)) {
+  tables.species = top.tables("species", kMaxSpecies);
+  for (const TomlTable& table : tables.species) {
     SpeciesEntry entry;
     set.setup.species.push_back(read_species(table, entry));
     const auto same = [&](const SpeciesEntry& s) { return s.name == entry.name; };
@@ -331,16 +315,10 @@ void read_particles(const TomlTable& top, ParticleSet& set) {
     }
     set.species.push_back(std::move(entry));
   }
-  check_setup(set, top, tip, lever);
-
-  for (const TomlTable& table : top.tables("particle", physics::kMostParticles)) {
-    set.particles.push_back(read_particle(table, set));
-  }
-  try {
-    physics::validate(set.setup, set.particles);
-  } catch (const std::invalid_argument& error) {
-    top.refuse("particle", error.what());
-  }
+  check_setup(set, tables);
+  tables.particles = top.tables("particle", physics::kMostParticles);
+  for (const TomlTable& table : tables.particles) set.particles.push_back(read_particle(table, set));
+  check_places(set, tables);
   if (top.has("target")) read_targets(top, set);
   if (top.has("pad")) read_pads(top, set);
   if (top.has("task")) set.blind = read_blind_task(top, set);

@@ -85,9 +85,9 @@ void PatternTask::count_stroke(const TaskTick& tick) {
   task_.begun_ns = tick.time_ns;
 }
 
-// Counts each stroke that moved a particle, if the groove was there at any time during it.
+// Counts each stroke of the hand that moved a particle, if the groove was there at any time during it.
 void PatternTask::count_guidance(const TaskTick& tick) {
-  if (!moving_ || !tick.guided || std::exchange(guided_, true)) return;
+  if (!moving_ || tick.swept || !tick.guided || std::exchange(guided_, true)) return;
   ++task_.score.guided;
 }
 

@@ -337,8 +337,8 @@ std::string refusal(const PushSetup& setup, const std::vector<PlacedParticle>& p
 TEST(PushedParticles, RefuseWhatCannotLieOnASample) {
   const PushSetup setup = setup_of(gold());
   EXPECT_EQ(refusal(setup, {{0, {Length(0.0), Length(0.0)}}, {0, {Length(49e-9), Length(0.0)}}}),
-            "particles 0 and 1 overlap: their centres are 49 nm apart and touch at 50 nm");
-  EXPECT_EQ(refusal(setup, {{1, {}}}), "particle 0 is of an unknown species");
+            "particles 1 and 2 overlap: their centres are 49 nm apart and touch at 50 nm");
+  EXPECT_EQ(refusal(setup, {{1, {}}}), "particle 1 is of an unknown species");
   PushSetup blunt = setup;
   blunt.tip.radius = Length(60e-9);
   EXPECT_EQ(refusal(blunt, {}), "radius 25 nm is not within 30 nm to 10 um");
