@@ -120,10 +120,10 @@ def _places(curves: typing.Sequence[Curve]) -> tuple[tuple[int, int], list[tuple
     return (rows, columns), [(rows - 1 - row, column) for column, row in pixels]
 
 
-def _curves(given: typing.Iterable[Curve]) -> list[Curve]:
+def _curves(given: Any) -> list[Curve]:
     if isinstance(given, (str, bytes, os.PathLike)):
         raise TypeError(f"curves: give curves, such as touchafm.read({given!r})")
-    curves = [None] if isinstance(given, Curve) else list(given)
+    curves: list[Any] = [None] if isinstance(given, Curve) else list(given)
     if not all(isinstance(each, Curve) for each in curves):
         raise TypeError("curves: give all curves of a map, as touchafm.read() returns them")
     if not curves:

@@ -209,7 +209,8 @@ std::pair<double, double> depth_of_gratings(double radius_m) {
   const ScanOptions options = options_for("mica");
   const auto setup = *contact_setup(options.contact);
   const physics::TipShape tip{.radius = physics::Length(radius_m)};
-  const auto surface = imaging::scan_surface(setup, tip, options.contact.assets_dir, {.file = imaging::kGratings});
+  const auto surface =
+      imaging::scan_surface(setup, tip, options.contact.assets_dir, {.file = imaging::kGratings, .reading = {}});
   EXPECT_TRUE(surface);
   EXPECT_NEAR(surface->width_m, 1.2e-6, 1e-15);
   const double wide_m = surface->height_m(-100e-9, 7e-9) - surface->height_m(-200e-9, -7e-9);
