@@ -118,7 +118,7 @@ physics::Levelling levelling_of(const std::string& word) {
   refuse(fmt::format("unknown levelling \"{}\"; choose {}", word, words));
 }
 
-// What is under the tip: a contact of a material, or a surface.
+// Object under the tip: a surface, or a contact of a material.
 using Sample = std::variant<Surface, Contact>;
 
 // The surface whose parts are given one by one, or that is given as a whole.
