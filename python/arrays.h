@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <type_traits>
@@ -23,9 +24,9 @@ class GivenArray : public pybind11::array_t<double, pybind11::array::c_style | p
  public:
   using array_t::array_t;
 
-  // Numbers of an argument; empty for one without real numbers.
+  // Numbers of an argument; empty for one without real numbers. A masked number is NaN.
   static std::optional<GivenArray> of(pybind11::handle given) {
-    const auto any = pybind11::array::ensure(given);
+    const auto any = pybind11::array::ensure(without_mask(given));
     if (!any || !has_numbers(any)) return std::nullopt;
     const pybind11::object numbers = ensure(any);
     if (!numbers) return std::nullopt;
@@ -33,6 +34,15 @@ class GivenArray : public pybind11::array_t<double, pybind11::array::c_style | p
   }
 
  private:
+  static pybind11::object without_mask(pybind11::handle given) {
+    auto any = pybind11::reinterpret_borrow<pybind11::object>(given);
+    if (!pybind11::isinstance<pybind11::array>(given) || !pybind11::hasattr(given, "mask")) return any;
+    if (std::string_view("biuf").find(pybind11::cast<pybind11::array>(any).dtype().kind()) == std::string_view::npos) {
+      return any;
+    }
+    return given.attr("astype")("f8").attr("filled")(std::numeric_limits<double>::quiet_NaN());
+  }
+
   static bool has_numbers(const pybind11::array& given) {
     const char kind = given.dtype().kind();
     if (kind != 'O') return std::string_view("biuf").find(kind) != std::string_view::npos;

@@ -15,6 +15,7 @@ void add_fits(pybind11::module_& module);      // adds analysis and fits
 void add_drive(pybind11::module_& module);
 void add_tapping(pybind11::module_& module);
 void add_frequency_shifts(pybind11::module_& module);
+void add_surfaces(pybind11::module_& module);   // adds samples for the images below
 void add_scans(pybind11::module_& module);      // adds images of the virtual microscope
 void add_levers(pybind11::module_& module);     // adds the calibration of levers
 void add_synthetic(pybind11::module_& module);  // adds synthetic curves with their truth

@@ -32,6 +32,8 @@ std::string assets_dir() {
 Contact::Contact(curves::ContactOptions options)
     : options_(std::move(options)), setup_(value_of(curves::contact_setup(options_))) {
   physics::validate(setup_.material.contact);
+  physics::validate(setup_.law_options);
+  physics::validate(setup_.material.lever);
 }
 
 curves::ContactSetup Contact::with_law(const std::optional<std::string>& law) const {
@@ -156,8 +158,8 @@ void add_contact_class(py::module_& module) {
                               "Tip, lever, sample and medium, with the source of each number. Immutable.");
   contact.def(
       py::init(&make_contact), py::kw_only(), py::arg("material") = py::none(), py::arg("probe") = py::none(),
-      py::arg("law") = "auto", py::arg("exact_sphere") = false, py::arg("material_files") = std::vector<std::string>(),
-      py::arg("probe_files") = std::vector<std::string>(),
+      py::arg("law") = "auto", py::arg("exact_sphere").noconvert() = false,
+      py::arg("material_files") = std::vector<std::string>(), py::arg("probe_files") = std::vector<std::string>(),
       "A contact of a known material, or of numbers in SI; each number replaces the material's or the probe's.\n\n"
       "material, probe: names that materials() and probes() list, with those of material_files and probe_files "
       "(TOML).\n"

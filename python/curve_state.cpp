@@ -98,6 +98,9 @@ std::vector<CurvePoint> points_from(std::span<const double> z_m, std::span<const
     if (!std::isfinite(z_m[i]) || !std::isfinite(force_n[i]) || !std::isfinite(approach[i])) {
       refuse(fmt::format("point {} is not finite", i));
     }
+    if (approach[i] != 0.0 && approach[i] != 1.0) {
+      refuse(fmt::format("approach: {} of point {} is neither True nor False", approach[i], i));
+    }
     const auto branch = approach[i] != 0.0 ? physics::Branch::Approach : physics::Branch::Retract;
     if (i > 0 && branch == physics::Branch::Approach && points.back().branch == physics::Branch::Retract) {
       refuse(fmt::format("point {} is of the approach and after the retract", i));

@@ -135,13 +135,23 @@ py::dict metadata_of(const Curve& curve) {
   return result;
 }
 
-void write(const Curve& curve, const std::filesystem::path& path, const std::string& format) {
-  for (const curves::WritableFormat& row : curves::writable_formats()) {
-    if (row.word != format) continue;
-    return value_of(long_work([curve = curve.recorded, path = path.string(), written = row.format](
-                                  const std::stop_token&) { return curves::write_curve(path, written, curve); }));
+curves::WritableFormat format_of(const std::filesystem::path& path, const std::optional<std::string>& format) {
+  if (!format) {
+    if (const auto of_ending = curves::writable_format_of(path.string())) return *of_ending;
+    refuse(fmt::format("{}: name a file that ends in .h5, .tab or, for AFM Workshop's, .csv, or give a format",
+                       path.string()));
   }
-  refuse(fmt::format("unknown format \"{}\"; choose tab, h5 or another that touchafm curve --help names", format));
+  std::string words;
+  for (const curves::WritableFormat& row : curves::writable_formats()) {
+    if (row.word == *format) return row;
+    words += (words.empty() ? "" : ", ") + std::string(row.word);
+  }
+  refuse(fmt::format("unknown format \"{}\"; choose {}", *format, words));
+}
+
+void write(const Curve& curve, const std::filesystem::path& path, const std::optional<std::string>& format) {
+  value_of(long_work([curve = curve.recorded, path = path.string(), written = format_of(path, format).format](
+                         const std::stop_token&) { return curves::write_curve(path, written, curve); }));
 }
 
 template <class Member>
@@ -180,9 +190,11 @@ void add_curve(py::module_& module) {
       .def_property_readonly(
           "remarks", [](const Curve& self) { return self.recorded.metadata.remarks; },
           "What was left out or turned, a sentence each.")
-      .def("write", &write, py::arg("path"), py::kw_only(), py::arg("format"),
+      .def("write", &write, py::arg("path"), py::kw_only(), py::arg("format") = py::none(),
            "Writes a file for other programs, whole or not at all: format \"tab\" or \"h5\" of afmformats, or\n"
-           "another that touchafm curve --help names. FileError if it cannot be written.")
+           "\"afm-workshop\"; default: by the ending of its name. ValueError for another format or ending, FileError "
+           "if it\n"
+           "cannot be written.")
       .def(py::pickle([](const Curve& self) { return state_of_curve(self); }, &curve_from_state))
       .def("__len__", [](const Curve& self) { return self.recorded.points.size(); })
       .def("__repr__", [](const Curve& self) {

@@ -230,9 +230,9 @@ void add_fit(py::module_& module) {
 
 void add_fit_function(py::module_& module) {
   module.def("fit", &fit, py::arg("curve"), py::kw_only(), py::arg("model"), py::arg("base") = py::none(),
-             py::arg("against") = py::none(), py::arg("tilt") = false, py::arg("white_noise") = false,
-             py::arg("bootstrap") = false, py::arg("uncertainties") = std::map<std::string, double>(),
-             py::arg("contact_point") = py::none(),
+             py::arg("against") = py::none(), py::arg("tilt").noconvert() = false,
+             py::arg("white_noise").noconvert() = false, py::arg("bootstrap").noconvert() = false,
+             py::arg("uncertainties") = std::map<std::string, double>(), py::arg("contact_point") = py::none(),
              "Elastic modulus of a curve with its interval, as touchafm analyse --fit finds it.\n\n"
              "curve: a Curve or its Analysis. model: a shape or a law of adhesion of --fit.\n"
              "Numbers: tip_radius m, half_angle rad, layer m, poisson, atomic_distance m, most_force N, most_depth m.\n"

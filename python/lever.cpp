@@ -161,7 +161,7 @@ void add_levers(py::module_& module) {
   module.def(
       "lever", &make_lever, py::kw_only(), py::arg("thermal") = py::none(), py::arg("unit") = "m",
       py::arg("low") = py::none(), py::arg("high") = py::none(), py::arg("averages") = py::none(), py::arg("mode") = 1,
-      py::arg("sader") = false, py::arg("fluid") = py::none(), py::arg("sensitivity_from") = py::none(),
+      py::arg("sader").noconvert() = false, py::arg("fluid") = py::none(), py::arg("sensitivity_from") = py::none(),
       py::arg("bandwidth") = py::none(),
       "Calibrates a lever, as touchafm lever does (docs/lever.md).\n\n"
       "thermal: a file, or arrays of frequencies in Hz and densities, in m^2/Hz or with unit=\"V\" in V^2/Hz;\n"

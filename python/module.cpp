@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module) {
   add_drive(module);
   add_tapping(module);
   add_frequency_shifts(module);
+  add_surfaces(module);
   add_scans(module);
   add_levers(module);
   add_synthetic(module);

@@ -43,8 +43,10 @@ std::uint64_t whole_within(std::string_view name, const Whole& given, std::uint6
   const auto refused = [&](auto number) {
     refuse(fmt::format("{}: {} is outside {} to {}", name, number, least, most));
   };
-  if (const auto* negative = std::get_if<std::int64_t>(&given)) refused(*negative);
-  const std::uint64_t number = std::get<std::uint64_t>(given);
+  const auto* const with_sign = std::get_if<std::int64_t>(&given);  // numpy's integers, too
+  if (with_sign != nullptr && *with_sign < 0) refused(*with_sign);
+  const std::uint64_t number =
+      with_sign != nullptr ? static_cast<std::uint64_t>(*with_sign) : std::get<std::uint64_t>(given);
   if (number < least || number > most) refused(number);
   return number;
 }

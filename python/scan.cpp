@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/json_text.h"
@@ -33,6 +34,7 @@
 #include "python/named_row.h"
 #include "python/numbers.h"
 #include "python/result_type.h"
+#include "python/surface.h"
 
 namespace afm::python {
 
@@ -116,7 +118,22 @@ physics::Levelling levelling_of(const std::string& word) {
   refuse(fmt::format("unknown levelling \"{}\"; choose {}", word, words));
 }
 
-std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
+// Object under the tip: a surface, or a contact of a material.
+using Sample = std::variant<Surface, Contact>;
+
+// The surface whose parts are given one by one, or that is given as a whole.
+Surface surface_of(const std::optional<Sample>& given, Surface parts) {
+  if (parts.sample.empty() && (!parts.channel.empty() || parts.level)) {
+    refuse("sample_channel and level have no effect without sample");
+  }
+  const Surface* const whole = given ? std::get_if<Surface>(&*given) : nullptr;
+  if (whole == nullptr) return parts;
+  if (!parts.sample.empty()) refuse("sample: the surface is one; leave sample out, or give a contact");
+  if (!parts.size) parts.size = whole->size;
+  return Surface{whole->sample, parts.size, whole->channel, whole->level};
+}
+
+std::shared_ptr<Scan> make_scan(const std::optional<Sample>& under_tip,
                                 const std::optional<std::filesystem::path>& sample, const std::string& sample_channel,
                                 const std::optional<std::string>& level, std::optional<double> size,
                                 const std::optional<Whole>& pixels, std::optional<double> x, std::optional<double> y,
@@ -125,13 +142,14 @@ std::shared_ptr<Scan> make_scan(const std::optional<Contact>& contact,
                                 const std::optional<Whole>& seed, const std::string& mode, const DriveArgument& drive,
                                 const py::kwargs& given) {
   ScanRequest request;
-  if (contact) request.contact = contact->options();
+  const auto* const contact = under_tip ? std::get_if<Contact>(&*under_tip) : nullptr;
+  if (contact != nullptr) request.contact = contact->options();
   request.contact.assets_dir = assets_dir();
-  if (!sample && (!sample_channel.empty() || level)) refuse("sample_channel and level have no effect without sample");
-  if (sample) request.sample.file = sample->string();
-  request.sample.reading.image.channel = sample_channel;
-  if (level) request.sample.reading.levelling = levelling_of(*level);
-  request.size = length(size, "size", imaging::kScanSizesM);
+  const Surface surface = surface_of(under_tip, {sample.value_or(""), size, sample_channel, level});
+  request.sample.file = surface.sample.string();
+  request.sample.reading.image.channel = surface.channel;
+  if (surface.level) request.sample.reading.levelling = levelling_of(*surface.level);
+  request.size = length(surface.size, "size", imaging::kScanSizesM);
   request.x_centre = length(x, "x", imaging::kScanPlacesM);
   request.y_centre = length(y, "y", imaging::kScanPlacesM);
   if (pixels) request.pixels = whole_within("pixels", *pixels, imaging::kFewestPixels, physics::kMostScanPixels);
@@ -261,12 +279,13 @@ void add_scans(py::module_& module) {
       "scan", &make_scan, py::arg("contact") = py::none(), py::kw_only(), py::arg("sample") = py::none(),
       py::arg("sample_channel") = "", py::arg("level") = py::none(), py::arg("size") = py::none(),
       py::arg("pixels") = py::none(), py::arg("x") = py::none(), py::arg("y") = py::none(),
-      py::arg("direction") = py::none(), py::arg("feedback") = true, py::arg("tip") = py::none(),
-      py::arg("tip_angle") = py::none(), py::arg("show_truth") = false, py::arg("seed") = py::none(),
+      py::arg("direction") = py::none(), py::arg("feedback").noconvert() = true, py::arg("tip") = py::none(),
+      py::arg("tip_angle") = py::none(), py::arg("show_truth").noconvert() = false, py::arg("seed") = py::none(),
       py::arg("mode") = "contact", py::arg("drive") = py::none(),
       "An image of a contact's sample, or of one's own, as touchafm scan takes it.\n\n"
-      "contact: of a material, such as Contact.material(\"gold\"); with sample it may be left out. sample: a glTF\n"
-      "model or an image, with sample_channel and level (\"none\", \"plane\", \"lines\") of that image.\n"
+      "contact: of a material, such as Contact.material(\"gold\"), or a surface(); with sample it may be left out.\n"
+      "sample: a glTF model or an image, with sample_channel and level (\"none\", \"plane\", \"lines\") of that\n"
+      "image, or \"gratings\".\n"
       "size, x and y, m; pixels of a line, and lines; direction \"down\" or \"up\"; tip: \"paraboloid\", \"sphere\",\n"
       "\"cone\", \"pyramid-3\" or \"pyramid-4\" of the contact's radius, with tip_angle, rad; show_truth adds "
       "channels.\n"

@@ -108,8 +108,9 @@ void add_own_sample_options(OptionList& command, ScanOptions& options) {
       "--sample", options.sample.file,
       fmt::format("scan your own sample at its own size: a glTF model with a node for the role surface, or a measured "
                   "image ({}); without --tip an image is taken as an apex traced it, as it is felt, with --tip as the "
-                  "sample itself; the file's first bytes decide",
-                  curves::kImageFiles));
+                  "sample itself; the file's first bytes decide; or {}, bars 10 nm high with a pitch of 200 nm on "
+                  "the left and 100 nm on the right",
+                  curves::kImageFiles, imaging::kGratings));
   sample.type_name("FILE");
   for (Option& option : add_channel_options(command, options.sample.reading.image.channel,
                                             options.sample.reading.levelling, "--sample-channel")) {
@@ -234,6 +235,7 @@ void add_scan_command(OptionList& program, const CommandContext& context) {
       "example: touchafm scan --material gold --rate 20Hz --integral-gain 200/s --picture blurred.png --json\n"
       "example: touchafm scan --material mica --mode tapping --free-amplitude 20nm --resonance 300kHz "
       "--quality-factor 400 --spring-constant 40N/m --setpoint 0.8 --integral-gain 500/s --rate 1Hz --out tapped.gwy\n"
+      "example: touchafm scan --sample gratings --size 500nm --tip-radius 10nm --rate 1Hz --out image.gwy\n"
       "example: touchafm scan --sample grating.gwy --tip cone --tip-radius 20nm --rate 1Hz --out image.gwy");
   command.when_chosen([options, tip] {
     if (const auto checked = check_tapping_options(options->tapping); !checked) return checked;

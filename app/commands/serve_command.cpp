@@ -204,7 +204,8 @@ void add_serve_command(OptionList& program, const CommandContext& context) {
   command
       .add_option(
           "--sample", options->sample,
-          "your own sample instead of the material's: a glTF model with a node for the role surface, or an image")
+          "your own sample instead of the material's: a glTF model with a node for the role surface, or an image; or "
+          "gratings, as for touchafm scan")
       .type_name("FILE");
   command.add_option("--out", options->out, "folder in which clients may save images and curves; default: nowhere")
       .type_name("DIR");

@@ -27,8 +27,8 @@ FieldUse optional(const SyntheticSetup&) { return FieldUse::Optional; }
 FieldUse required_if(bool is_used) { return is_used ? FieldUse::Required : FieldUse::None; }
 FieldUse optional_if(bool is_used) { return is_used ? FieldUse::Optional : FieldUse::None; }
 
-FieldUse of_radius(const SyntheticSetup& setup) { return required_if(law_of(setup).has_radius); }
-FieldUse of_angle(const SyntheticSetup& setup) { return required_if(!law_of(setup).has_radius); }
+FieldUse of_radius(const SyntheticSetup& setup) { return optional_if(law_of(setup).has_radius); }
+FieldUse of_angle(const SyntheticSetup& setup) { return optional_if(!law_of(setup).has_radius); }
 FieldUse of_layer(const SyntheticSetup& setup) { return required_if(law_of(setup).has_layer); }
 FieldUse of_work(const SyntheticSetup& setup) { return required_if(law_of(setup).is_adhesive); }
 FieldUse of_distance(const SyntheticSetup& setup) { return optional_if(setup.shape == fits::Shape::Maugis); }
@@ -51,9 +51,10 @@ const std::array<SyntheticField, kSyntheticFieldCount> kSyntheticFields{{
      &SyntheticSetup::modulus_pa, required},
     {"poisson", "poisson_ratio", "Poisson's ratio of the sample; default: 0.5", 0.0, 0.5, &physics::kPlainNumber,
      &SyntheticSetup::poisson, optional},
-    {"radius", "radius_m", "radius of the tip", 1e-10, 1e-3, &physics::kLengthUnits, &SyntheticSetup::radius_m,
-     of_radius},
-    {"half-angle", "half_angle_rad", "angle between the axis of the tip and its edge (cone) or face (pyramid)", kDegree,
+    {"radius", "radius_m", "radius of the tip; default: 1um", 1e-10, 1e-3, &physics::kLengthUnits,
+     &SyntheticSetup::radius_m, of_radius},
+    {"half-angle", "half_angle_rad",
+     "angle between the axis of the tip and its edge (cone) or face (pyramid); default: 17.189 deg", kDegree,
      88.0 * kDegree, &kHalfAngleUnits, &SyntheticSetup::half_angle_rad, of_angle},
     {"layer", "layer_m", "thickness of the sample on a rigid base", 1e-10, 1e-1, &physics::kLengthUnits,
      &SyntheticSetup::layer_m, of_layer},
@@ -62,10 +63,10 @@ const std::array<SyntheticField, kSyntheticFieldCount> kSyntheticFields{{
     {"atomic-distance", "atomic_distance_m",
      "equilibrium distance z0 of the surfaces, for the stress of maugis; default: 0.3nm", 0.05e-9, 5e-9,
      &physics::kLengthUnits, &SyntheticSetup::atomic_distance_m, of_distance},
-    {"spring-constant", "spring_constant_N_per_m", "stiffness of the lever", 1e-4, 1e4, &physics::kStiffnessUnits,
-     &SyntheticSetup::spring_n_per_m, required},
-    {"most-force", "most_force_N", "true force at which the base turns", 1e-13, 1e-2, &physics::kForceUnits,
-     &SyntheticSetup::most_force_n, required},
+    {"spring-constant", "spring_constant_N_per_m", "stiffness of the lever; default: 0.1N/m", 1e-4, 1e4,
+     &physics::kStiffnessUnits, &SyntheticSetup::spring_n_per_m, optional},
+    {"most-force", "most_force_N", "true force at which the base turns; default: 1nN", 1e-13, 1e-2,
+     &physics::kForceUnits, &SyntheticSetup::most_force_n, optional},
     {"contact", "contact_z_m", "height of the base at which the approach meets the sample; default: 0nm", -1e-3, 1e-3,
      &physics::kLengthUnits, &SyntheticSetup::contact_m, optional},
     {"clearance", "clearance_m",

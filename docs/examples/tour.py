@@ -18,11 +18,11 @@ A cycle of a contact, the law as an array, and a sweep on all cores:
 
 Curves whose truth is known, written and read like any other file:
 
->>> x, truth = t.generate("jkr", E=1e6, W=5e-2, tip_radius=1e-6, spring_constant=1.0, most_force=200e-9, noise=20e-12, n=100, seed=1)
+>>> x, truth = t.generate("jkr", E=1e6, W=5e-2, noise=20e-12, n=100, seed=1)
 >>> len(x), truth["parameters"]["modulus_Pa"]
 (100, 1000000.0)
 >>> gel, _ = t.generate(E=3e3, tip_radius=5e-6, spring_constant=0.05, most_force=1e-9, noise=15e-12)
->>> gel[0].write("curve.h5", format="h5")
+>>> gel[0].write("curve.h5")
 >>> k = t.read("curve.h5")[0]
 >>> k.z.shape, k.force.shape, k.metadata["spring_constant"]
 ((2000,), (2000,), 0.05)
@@ -54,6 +54,9 @@ Tapping: the states at one height, the jumps of a slow curve, a fast curve, and 
 >>> img = t.scan(hard, size=40e-9, pixels=32, mode="tapping", drive=d, seed=3)
 >>> img["Phase"].shape
 (32, 32)
+>>> bars = t.scan(t.surface("gratings", size=500e-9), pixels=64)
+>>> bars["Height"].shape
+(64, 64)
 
 An instrument, and the calibration of its lever:
 

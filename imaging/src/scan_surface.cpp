@@ -10,6 +10,7 @@
 
 #include "curves/image_file.h"
 #include "curves/sample_model.h"
+#include "gratings.h"
 #include "haptics/contact_model.h"
 #include "haptics/simulated_device.h"
 #include "imaging/drawn_surface.h"
@@ -84,6 +85,10 @@ core::Result<ScanSurface> scan_surface(const curves::ContactSetup& setup, const 
     surface.depth_m = static_cast<double>(grid.rows - 1) * grid.row_step_m;
     surface.height_m = physics::level_beyond_rim(std::make_shared<const physics::HeightGrid>(std::move(grid)));
   };
+  if (is_gratings(own.file)) {
+    level(physics::image_of(gratings(), single));
+    return surface;
+  }
   if (curves::is_image_file(own.file)) {
     auto measured = measured_heights(own);
     if (!measured) return tl::unexpected(measured.error());

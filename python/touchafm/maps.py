@@ -120,14 +120,24 @@ def _places(curves: typing.Sequence[Curve]) -> tuple[tuple[int, int], list[tuple
     return (rows, columns), [(rows - 1 - row, column) for column, row in pixels]
 
 
-def fit(curves: typing.Sequence[Curve], *, threads: Optional[int] = None, **settings: Any) -> FitMap:
+def _curves(given: Any) -> list[Curve]:
+    if isinstance(given, (str, bytes, os.PathLike)):
+        raise TypeError(f"curves: give curves, such as touchafm.read({given!r})")
+    curves: list[Any] = [None] if isinstance(given, Curve) else list(given)
+    if not all(isinstance(each, Curve) for each in curves):
+        raise TypeError("curves: give all curves of a map, as touchafm.read() returns them")
+    if not curves:
+        raise ValueError("there is no curve")
+    return curves
+
+
+def fit(curves: typing.Iterable[Curve], *, threads: Optional[int] = None, **settings: Any) -> FitMap:
     """Fits every curve of a map, on all cores or so many threads. settings: the arguments of touchafm.fit().
 
     A curve that nothing fits is NaN, with its reason; of two curves at one pixel the later counts. ValueError for curves
-    that are not a map, and for what touchafm.fit() refuses.
+    that are not a map, and for what touchafm.fit() refuses; TypeError for anything but curves.
     """
-    if not curves:
-        raise ValueError("there is no curve")
+    curves = _curves(curves)
     shape, places = _places(curves)
     width, height = curves[0].metadata["grid_size"]
     pool = ThreadPoolExecutor(threads or os.cpu_count())

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/whole_file.h"
@@ -201,6 +202,31 @@ TEST(ScanCommand, RefusesASampleThatIsNone) {
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().category, core::ErrorCategory::BadInputFile);
   EXPECT_THAT(written.error().message, HasSubstr("neither a glTF model nor an image"));
+}
+
+// Depth of the trenches below the bars, of a paraboloid's image: in the middle of one on the left and one on the right.
+std::pair<double, double> depth_of_gratings(double radius_m) {
+  const ScanOptions options = options_for("mica");
+  const auto setup = *contact_setup(options.contact);
+  const physics::TipShape tip{.radius = physics::Length(radius_m)};
+  const auto surface =
+      imaging::scan_surface(setup, tip, options.contact.assets_dir, {.file = imaging::kGratings, .reading = {}});
+  EXPECT_TRUE(surface);
+  EXPECT_NEAR(surface->width_m, 1.2e-6, 1e-15);
+  const double wide_m = surface->height_m(-100e-9, 7e-9) - surface->height_m(-200e-9, -7e-9);
+  const double narrow_m = surface->height_m(50e-9, 7e-9) - surface->height_m(100e-9, -7e-9);
+  return {wide_m, narrow_m};
+}
+
+TEST(ScanCommand, TracesTheIncludedGratingsAsDeepAsTheTipReaches) {
+  const auto sharp = depth_of_gratings(1e-9), usual = depth_of_gratings(50e-9), blunt = depth_of_gratings(400e-9);
+  EXPECT_NEAR(sharp.first, 10e-9, 1e-15);
+  EXPECT_NEAR(sharp.second, 10e-9, 1e-15);
+  EXPECT_NEAR(usual.first, 10e-9, 1e-15);
+  // x^2/2R to the edges of the bars, between two points of 2.5 nm
+  EXPECT_NEAR(usual.second, 25e-9 * 25e-9 / 100e-9, 0.7e-9);
+  EXPECT_NEAR(blunt.first, 50e-9 * 50e-9 / 800e-9, 0.2e-9);
+  EXPECT_NEAR(blunt.second, 25e-9 * 25e-9 / 800e-9, 0.1e-9);
 }
 
 TEST(ScanCommand, MakesTheImageOfABluntTipHigherOrEqual) {

@@ -101,6 +101,16 @@ class Law(unittest.TestCase):
         again = pickle.loads(pickle.dumps(self.law))
         self.assertEqual((again.name, again.force(3e-9), again.contact.as_dict()), ("dmt", self.law.force(3e-9), self.law.contact.as_dict()))
 
+    def test_takes_a_masked_height_as_not_measured(self):
+        heights = np.ma.array([1e-9, 2e-9, 3e-9], mask=[False, True, False])
+        force = self.law.force(heights)
+        np.testing.assert_array_equal(np.isnan(force), [False, True, False])
+        self.assertEqual(force[2], self.law.force(3e-9))
+        whole = np.ma.array([1, 2], mask=False)
+        np.testing.assert_array_equal(self.law.force(whole), self.law.force([1.0, 2.0]))
+        with self.assertRaises(ValueError):
+            touchafm.Curve(z=np.ma.array(np.linspace(1e-6, 0.0, 9), mask=np.arange(9) == 4), force=np.zeros(9), approach=np.ones(9))
+
     def test_gives_a_float_for_a_float(self):
         self.assertIsInstance(self.law.force(3e-9), float)
 
@@ -114,6 +124,14 @@ class Law(unittest.TestCase):
                       lambda: touchafm.law("dynamic-dmt", self.law.contact)):
             with self.assertRaises(ValueError):
                 wrong()
+
+class Refused(unittest.TestCase):
+    def test_numbers_of_medium_and_lever_are_checked_at_once(self):
+        for given in ({"humidity": 40}, {"humidity": -0.1}, {"retardation": -1.0}, {"resonance": -5.0, "law": "dynamic-dmt"},
+                      {"quality_factor": float("inf"), "law": "dynamic-dmt"}, {"temperature": 1e5, "law": "dynamic-dmt"}):
+            with self.assertRaisesRegex(ValueError, "is not within", msg=given):
+                touchafm.Contact.material("gold", **given)
+
 
 
 class Cycle(unittest.TestCase):

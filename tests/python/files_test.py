@@ -121,8 +121,19 @@ class Curves(Files):
             np.testing.assert_allclose(again.force, curve.force, rtol=1e-9, atol=1e-20)
         with self.assertRaises(ValueError):
             curve.write(self.folder / "curve.doc", format="doc")
+        curve.write(self.folder / "by-ending.tab")
+        self.assertEqual((self.folder / "by-ending.tab").read_bytes(), (self.folder / "curve.tab").read_bytes())
+        with self.assertRaisesRegex(ValueError, "curve.doc: name a file that ends in .h5"):
+            curve.write(self.folder / "curve.doc")
         with self.assertRaises(OSError):
             curve.write("/nowhere/curve.tab", format="tab")
+
+    def test_refuse_an_approach_that_is_none(self):
+        z = np.linspace(1e-6, 0.0, 5)
+        touchafm.Curve(z=z, force=z, approach=np.array([1, 1, 1, 0, 0], ">i2"))
+        for approach in (np.full(5, 0.5), z, [1, 1, 2, 0, 0]):
+            with self.assertRaisesRegex(ValueError, "approach: .* is neither True nor False"):
+                touchafm.Curve(z=z, force=z, approach=approach)
 
     def test_are_made_of_arrays(self):
         z = np.linspace(1e-6, 0.0, 50, dtype=np.float32)

@@ -38,6 +38,8 @@ class Maps(unittest.TestCase):
         self.assertTrue(np.isnan(found.W).all())
         true = np.array([each["modulus_Pa"] for each in self.truth["curves"]]).reshape(4, 5)[::-1]
         self.assertLess(np.abs(found.E / true - 1).max(), 0.1)
+        for same in ((each for each in self.curves), np.array(self.curves, dtype=object)):
+            np.testing.assert_array_equal(touchafm.fit_map(same, **FIT).E, found.E)
 
     def test_are_those_of_the_command(self):
         made = command("generate", "map", "--radius", "5um", "--modulus", "3kPa", "--spring-constant", "0.05N/m", "--most-force",
@@ -96,8 +98,14 @@ class Maps(unittest.TestCase):
         for wrong in ({"model": "cube"}, {"model": "paraboloid"}):
             with self.assertRaises(ValueError, msg=wrong):
                 touchafm.maps.fit(self.curves, **wrong)
+        for no_curves in (alone[0], "cells.h5", [*self.curves, "cells.h5"], np.zeros(3)):
+            with self.assertRaisesRegex(TypeError, "curves: give "):
+                touchafm.maps.fit(no_curves, **FIT)
         with self.assertRaises(TypeError):
             touchafm.maps.fit(self.curves, **FIT, hue=1.0)
+        for number in ({"bootstrap": 1000}, {"tilt": 0.1}, {"white_noise": 1}):  # these are switches
+            with self.assertRaises(TypeError, msg=number):
+                touchafm.fit(self.curves[0], **FIT, **number)
 
 
 if __name__ == "__main__":

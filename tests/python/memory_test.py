@@ -5,7 +5,9 @@ import ctypes
 import gc
 import os
 import pathlib
+import sys
 import tempfile
+import time
 import unittest
 
 import numpy as np
@@ -13,7 +15,7 @@ import numpy as np
 import touchafm
 from study_test import write_study
 
-MOST_KIB = 1024  # 10 bytes of each of 100,000 calls, 500 of each of 2,000
+MOST_BYTES = 16384  # of all calls together: of caches and of threads that end
 MICA = touchafm.Contact.material("mica")
 STIFF = touchafm.Contact.material("mica", spring_constant=40.0, tip_radius=20e-9)
 GEL = {"tip_radius": 5e-6, "modulus": 3e3, "spring_constant": 0.05, "most_force": 1e-9, "noise": 15e-12}
@@ -21,21 +23,31 @@ Z = np.linspace(1e-6, 0.0, 20)
 SESSION = pathlib.Path(__file__).resolve().parent.parent / "formats" / "0.2.0" / "session-mica.afms"
 
 
-def resident_kib():
-    """Memory that the process holds, once what was freed is given back."""
+class Mallinfo(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_size_t) for name in ("arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
+                                                     "fordblks", "keepcost")]
+
+
+LIBC = ctypes.CDLL(None)
+LIBC.mallinfo2.restype = Mallinfo
+
+
+def held():
+    """What the process holds: bytes that were allocated and not freed, without Python's small objects, and the number of those."""
     gc.collect()
-    ctypes.CDLL(None).malloc_trim(0)
-    with open("/proc/self/statm", encoding="ascii") as pages:
-        return int(pages.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") // 1024
+    info = LIBC.mallinfo2()
+    return info.uordblks + info.hblkhd, sys.getallocatedblocks()
 
 
-def grown_kib(call, count):
-    for _ in range(max(count // 20, 20)):
+def grown(call, count):
+    """Bytes and small objects that the calls keep, once caches are full."""
+    for _ in range(max(count // 20, min(count, 10))):
         call()
-    before = resident_kib()
+    bytes_before, objects_before = held()
     for _ in range(count):
         call()
-    return resident_kib() - before
+    bytes_after, objects_after = held()
+    return bytes_after - bytes_before, objects_after - objects_before
 
 
 def refused(call):
@@ -62,9 +74,15 @@ class Memory(unittest.TestCase):
     def expect_no_growth(self, calls):
         for name, (count, call) in calls.items():
             with self.subTest(name):
-                grown = grown_kib(call, count)
-                print(f"{name}: {count} calls, {grown} KiB more: {1024 * grown / count:.1f} bytes a call")
-                self.assertLess(grown, MOST_KIB)
+                begin = time.process_time()
+                for _ in range(3):  # a cache fills once, a leak grows again
+                    more, objects = grown(call, count)
+                    if more < MOST_BYTES and objects < max(count // 2, 20):
+                        break
+                taken = time.process_time() - begin
+                print(f"{name}: {count} calls, {more} bytes and {objects} objects more, {taken:.1f} s of processor time")
+                self.assertLess(more, MOST_BYTES)
+                self.assertLess(objects, max(count // 2, 20))
 
     def test_of_contacts_laws_and_cycles(self):
         def cycle():
@@ -105,15 +123,16 @@ class Memory(unittest.TestCase):
             taken = touchafm.scan(MICA, pixels=8)
             return taken.channels, taken.units, taken.as_dict(), taken.truth
 
-        def tapping():
-            taken = touchafm.tapping(STIFF, free_amplitude=20e-9, resonance=300e3, quality_factor=400.0, at=16e-9)
+        def tapping(**path):
+            taken = touchafm.tapping(STIFF, free_amplitude=20e-9, resonance=300e3, quality_factor=400.0, **path)
             return taken.z, taken.phase, taken.as_dict()
 
         frequency = np.linspace(50e3, 90e3, 200)
         density = 1e-26 / ((1 - (frequency / 70e3) ** 2) ** 2 + (frequency / 70e3 / 50) ** 2)
         self.expect_no_growth({
             "scan": (150, scan),
-            "tapping": (500, tapping),
+            "tapping": (100, lambda: tapping(z_from=24e-9, z_to=20e-9, step=1e-9)),
+            "states of tapping": (5, lambda: tapping(at=16e-9)),
             "frequency_shift": (500, lambda: touchafm.frequency_shift(MICA, amplitude=1e-9, resonance=3e4, law="dmt", at=5e-9).shift),
             "lever": (500, lambda: touchafm.lever(thermal=(frequency, density)).as_dict()),
             "level": (100_000, lambda values=np.zeros((4, 4)): touchafm.level(values)),
@@ -135,7 +154,9 @@ class Memory(unittest.TestCase):
 
     def test_notices_a_small_leak(self):
         kept = []
-        self.assertGreater(grown_kib(lambda: kept.append(bytearray(100)), 100_000), MOST_KIB)
+        self.assertGreater(grown(lambda: kept.append(bytearray(100)), 1000)[1], 500)
+        more, _ = grown(lambda: kept.append(bytearray(2000)), 100)  # of malloc
+        self.assertGreater(more, 2000 * 100 * 0.9)
 
 
 if __name__ == "__main__":

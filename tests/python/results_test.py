@@ -182,6 +182,9 @@ class Results(unittest.TestCase):
         written("generate", "curve", *GEL_TYPED.split(), "--points", "50", "--count", "2", "--seed", "4", "--out", "two.h5")
         _, truth = touchafm.generate(points=50, count=2, seed=4, **GEL)
         self.assertEqual(truth, json.loads(pathlib.Path("two.h5.truth.json").read_text(encoding="utf-8")))
+        written("generate", "curve", "--law", "jkr", "--modulus", "1MPa", "--work-of-adhesion", "50mJ/m2", "--points", "50", "--out", "usual.h5")
+        _, truth = touchafm.generate("jkr", E=1e6, W=50 / 1e3, points=50)
+        self.assertEqual(truth, json.loads(pathlib.Path("usual.h5.truth.json").read_text(encoding="utf-8")))
         written("generate", "map", *GEL_TYPED.split(), "--points", "50", "--pixels", "3x2", "--field", "islands", "--second-modulus",
                 "9kPa", "--out", "map.h5")
         _, truth = touchafm.generate_map(points=50, pixels=(3, 2), field="islands", second_modulus=9e3, **GEL)

@@ -83,6 +83,40 @@ class Scan(unittest.TestCase):
             command = json_of("scan", "--sample", file, "--level", "none", "--pixels", "16", "--tip", "sphere", "--json")
         self.assertEqual(own.as_dict(), command)
 
+    def test_takes_the_whole_numbers_of_numpy(self):
+        scan = touchafm.scan(MICA, **{**SMALL, "pixels": np.int64(4), "seed": np.uint32(5)})
+        self.assertEqual(scan.as_dict(), touchafm.scan(MICA, **{**SMALL, "pixels": 4}).as_dict())
+        curves, _ = touchafm.generate(E=3e3, n=np.int32(2), points=np.int16(60), seed=np.int64(3))
+        self.assertEqual([len(each) for each in curves], [120, 120])
+        with self.assertRaisesRegex(ValueError, "pixels: -4 is outside"):
+            touchafm.scan(MICA, pixels=np.int64(-4))
+
+    def test_takes_a_surface_in_place_of_a_contact(self):
+        surface = touchafm.surface("gratings", size=500 / 1e9)
+        self.assertEqual((surface.sample, surface.size, touchafm.surface("own.gwy").size), ("gratings", 500 / 1e9, None))
+        scan = touchafm.scan(surface, pixels=32)
+        self.assertEqual(scan.as_dict(), json_of("scan", "--sample", "gratings", "--size", "500nm", "--pixels", "32", "--json"))
+        self.assertEqual(scan.as_dict(), touchafm.scan(MICA, sample="gratings", size=500 / 1e9, pixels=32).as_dict())
+        narrow = touchafm.scan(surface, size=100e-9, pixels=4)
+        self.assertEqual(narrow.width, 100e-9)
+        for given in ({"sample": "gratings"}, {"level": "plane"}):
+            with self.assertRaises(ValueError, msg=given):
+                touchafm.scan(surface, pixels=4, **given)
+        for wrong in ("gratings", np.zeros((4, 4)), None):
+            with self.assertRaises((TypeError, ValueError)):
+                touchafm.scan(wrong, pixels=4)
+        with self.assertRaisesRegex(touchafm.FileError, "nowhere"):
+            touchafm.scan(touchafm.surface("/nowhere.gwy"))
+
+    def test_prefers_a_file_with_the_name_of_the_gratings(self):
+        self.addCleanup(os.chdir, os.getcwd())
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            with open("gratings", "w", encoding="ascii") as file:
+                file.write("no image")
+            with self.assertRaisesRegex(touchafm.FileError, "neither a glTF model nor an image"):
+                touchafm.scan(sample="gratings")
+
     def test_refuses_with_the_words_of_the_command(self):
         for given, typed in (({}, ()), ({"rate": -1.0}, ("--rate=-1Hz",)), ({"size": 1.0}, ("--size", "1000mm"))):
             contact = MICA if given else touchafm.Contact(tip_radius=1e-8, spring_constant=0.1, hamaker=1e-20,
@@ -95,6 +129,8 @@ class Scan(unittest.TestCase):
         for given in ({"tip": "needle"}, {"direction": "left"}, {"pixels": 1}, {"pixels": -1}, {"seed": -1}, {"seed": 2**32}, {"level": "plane"}, {"tip_angle": 2.0}):
             with self.assertRaises(ValueError):
                 touchafm.scan(MICA, **given)
+        with self.assertRaises(TypeError):
+            touchafm.scan(MICA, feedback=0.0)  # a switch
         with self.assertRaises(TypeError):
             touchafm.scan(MICA, colour=1.0)
         with self.assertRaises(TypeError):

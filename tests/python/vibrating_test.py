@@ -16,36 +16,44 @@ class Tapping(unittest.TestCase):
                "--model", "dmt", "--spring-constant", "40N/m", "--tip-radius", "20nm", "--hamaker", "64zJ", "--contact-gap",
                "0.165nm", "--reduced-modulus", "1.5GPa", "--json")
 
-    def contact(self):
-        given = {key: value for key, value in self.SET_UP.items() if key not in ("resonance", "quality_factor")}
+    FEW = {"z_from": 22e-9, "z_to": 14e-9, "step": 0.2e-9}  # a path with both jumps
+
+    @classmethod
+    def setUpClass(cls):
+        cls.whole = cls.tapping()
+        cls.at = cls.tapping(at=17.4 / 1e9)  # as a typed 17.4nm is read
+
+    @classmethod
+    def contact(cls):
+        given = {key: value for key, value in cls.SET_UP.items() if key not in ("resonance", "quality_factor")}
         return touchafm.Contact(work_of_adhesion=1e-3, **given)
 
-    def tapping(self, **given):
-        return touchafm.tapping(self.contact(), free_amplitude=20e-9, resonance=300e3, quality_factor=400.0,
+    @classmethod
+    def tapping(cls, **given):
+        return touchafm.tapping(cls.contact(), free_amplitude=20e-9, resonance=300e3, quality_factor=400.0,
                                 contact_gap=0.165e-9, **given)
 
     def test_is_the_json_of_the_command(self):
-        tapping = self.tapping()
-        self.assertEqual(without_sources(tapping.as_dict()), without_sources(json_of(*self.COMMAND)))
-        self.assertGreater(tapping.amplitude.max(), 19e-9)
-        at = self.tapping(at=17.4 / 1e9)  # as a typed 17.4nm is read
-        self.assertEqual(without_sources(at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "17.4nm")))
+        self.assertEqual(without_sources(self.whole.as_dict()), without_sources(json_of(*self.COMMAND)))
+        self.assertGreater(self.whole.amplitude.max(), 19e-9)
+        self.assertEqual(without_sources(self.at.as_dict()), without_sources(json_of(*self.COMMAND, "--at", "17.4nm")))
 
     def test_takes_a_drive_in_place_of_its_numbers(self):
         drive = touchafm.Drive(free_amplitude=20e-9, resonance=300e3, quality_factor=400.0, contact_gap=0.165e-9)
         self.assertEqual((drive.free_amplitude, drive.frequency), (20e-9, None))
-        tapping = touchafm.tapping(self.contact(), drive)
-        self.assertEqual(tapping.as_dict(), self.tapping().as_dict())
+        tapping, same = touchafm.tapping(self.contact(), drive, **self.FEW), self.tapping(**self.FEW)
+        self.assertEqual(tapping.as_dict(), same.as_dict())
         self.assertEqual(tapping.folds, tapping.as_dict()["jumps"])
         self.assertEqual(len(tapping.folds), 2)
-        at = self.tapping(at=17.4e-9)
-        self.assertEqual(tapping.states(17.4e-9), at.as_dict()["states"])
-        self.assertEqual(at.folds, tapping.folds)
-        fast = tapping.curve(speed=1e-6)
-        self.assertEqual(fast.as_dict(), self.tapping(speed=1e-6).as_dict())
+        self.assertEqual(tapping.states(17.4 / 1e9), self.at.as_dict()["states"])
+        fast = tapping.curve(speed=1e-6, **self.FEW)
+        self.assertEqual(fast.as_dict(), self.tapping(speed=1e-6, **self.FEW).as_dict())
         self.assertEqual(fast.folds, tapping.folds)
         self.assertNotEqual(fast.as_dict()["jumps"], tapping.folds)
         self.assertEqual(len(tapping.curve(z_from=20e-9, z_to=18e-9, step=1e-9)), 5)
+
+    def test_has_the_jumps_of_a_whole_curve_beside_the_states_at_one_height(self):
+        self.assertEqual(self.at.folds, self.whole.folds)
 
     def test_refuses_numbers_that_a_drive_has_too_and_none_at_all(self):
         drive = touchafm.Drive(free_amplitude=20e-9, frequency=310e3)

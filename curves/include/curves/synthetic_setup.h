@@ -9,6 +9,7 @@
 
 #include "core/result.h"
 #include "fits/indenter.h"
+#include "physics/imaging/tip_shape.h"
 #include "physics/quantity_text.h"
 
 namespace afm::curves {
@@ -21,11 +22,11 @@ struct SyntheticSetup {
   std::size_t points = 1000;  // number of points in each branch
   double modulus_pa = 0;      // Young's modulus
   double poisson = 0.5;
-  double radius_m = 0, half_angle_rad = 0, layer_m = 0;
+  double radius_m = 1e-6, half_angle_rad = physics::TipShape{}.half_angle_rad, layer_m = 0;
   double work_j_per_m2 = 0;
   double atomic_distance_m = fits::Indenter{}.atomic_distance_m;
-  double spring_n_per_m = 0;
-  double most_force_n = 0;         // true force at which the base turns
+  double spring_n_per_m = 0.1;
+  double most_force_n = 1e-9;      // true force at which the base turns
   double contact_m = 0;            // height of the base at which the approach meets the sample
   double clearance_m = 0;          // height above contact_m at which the curve begins; zero: chosen automatically
   double speed_m_per_s = 1e-6;     // velocity of the base

@@ -238,7 +238,9 @@ TEST(Generated, RefusesWhatItsLawDoesNotUse) {
   expect_refusal(gel + " --wave 10pN", "--wave needs --wave-period");
   expect_refusal(gel + " --law auto", "auto");
   expect_refusal(gel + " --law layer-sphere --layer 5um --poisson 0.3", "needs a Poisson's ratio of 0.5");
-  expect_refusal("curve --modulus 3kPa --radius 5um --most-force 1nN", "--law paraboloid needs --spring-constant");
+  expect_refusal("curve --radius 5um --most-force 1nN", "--law paraboloid needs --modulus");
+  expect_refusal("curve --law jkr --modulus 1MPa", "--law jkr needs --work-of-adhesion");
+  expect_refusal("curve --law layer-cone --modulus 1kPa", "--law layer-cone needs --layer");
   expect_refusal(sticky + " --atomic-distance 0.2nm", "--law jkr has no use for it");
   expect_refusal("map " + std::string(kGel) + " --field step", "needs --second-modulus");
   expect_refusal("map " + std::string(kGel) + " --second-modulus 1kPa", "--field uniform has no second value");
