@@ -109,7 +109,9 @@ ExitCode run(const Options& options) {
   auto loop = afm::haptics::ServoLoop::create(*segment, *opened->device, options.settings);
   if (!loop) {
     afm::core::log_line(loop.error().message);
-    return afm::core::exit_code(loop.error().category);
+    // another start with this scene and device would fail, too
+    return loop.error().category == afm::core::ErrorCategory::Failed ? ExitCode::BadInputFile
+                                                                     : afm::core::exit_code(loop.error().category);
   }
 
   afm::haptics::ServoExit exit{};

@@ -339,7 +339,7 @@ TEST(LabTables, MayHaveThePositionOfTheTip) {
   EXPECT_THAT(parse_curve(lab_table(of_tip), "a.txt", unknown).error().message, HasSubstr("give --spring-constant"));
 }
 
-TEST(LabTables, MayHaveTheWayBackAtHeightsOfItsOwn) {
+TEST(LabTables, MayHaveTheWayBackAtOtherHeights) {
   std::vector<std::pair<double, double>> points;
   lab_table([&](double z, double f) {
     points.emplace_back(z, f);

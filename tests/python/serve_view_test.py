@@ -152,8 +152,8 @@ class View(Windows):
         self.assertEqual(server.end(), 0)
 
     def test_needs_a_display(self):
-        for options, code, why in ((("--view",), 4, "cannot open a window"), (("--wall", "none.toml"), 2, "--view"),
-                                   (("--view", "--wall", "none.toml"), 3, "none.toml")):
+        for options, code, why in ((("--view",), 4, "cannot open a window"), (("--wall", "no-wall.toml"), 2, "--view"),
+                                   (("--view", "--wall", "no-wall.toml"), 3, "no-wall.toml")):
             server = Server(self.folder, "none", *options, display="")
             self.assertEqual(server.process.wait(timeout=60), code)
             self.assertIn(why, server.said())

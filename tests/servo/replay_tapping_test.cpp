@@ -50,7 +50,7 @@ TEST(Replay, GivesASwingAgain) {
   ASSERT_TRUE(save_session(recording.sessions.front(), path));
   const auto bytes = core::read_file(path);
   ASSERT_TRUE(bytes);
-  EXPECT_EQ(bytes->at(4), 21);  // version
+  EXPECT_EQ(bytes->at(4), 22);  // version
   const auto loaded = load_session(path);
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->parameters.free_amplitude_m, 20e-9);
@@ -125,10 +125,10 @@ std::uint64_t digest_of(const RecordedSession& session) {
   return digest.value();
 }
 
-RecordedSession tapped_beside_resonance(bool as_of_older_versions) {
+RecordedSession tapped_beside_resonance(scene::OlderTapping older) {
   auto model = tapped_model();
   model.materials[test::kMica].drive_hz = 303e3;
-  model.materials[test::kMica].harmonics_at_resonance = as_of_older_versions ? 1 : 0;
+  model.materials[test::kMica].older_tapping = older;
   Recording recording(model);
   recording.choose(test::kMica);
   recording.arm();
@@ -139,23 +139,33 @@ RecordedSession tapped_beside_resonance(bool as_of_older_versions) {
   return recording.sessions.front();
 }
 
-// Version 10 does not name the harmonics, which were those at the resonance.
+struct Version {
+  scene::OlderTapping older;
+  int number;
+  bool harmonics, jump_off;  // words in the header
+};
+
+// Version 10 does not name the harmonics, which were those at the resonance, and neither it nor 21 the Z of a jump off.
 TEST(Replay, GivesASwingBesideTheResonanceAgainAsItsVersionHadIt) {
+  using scene::OlderTapping;
   const support::ScratchFolder folder;
   const std::string path = folder.file("tapping.afms");
-  for (const bool older : {true, false}) {
-    SCOPED_TRACE(older);
-    ASSERT_TRUE(save_session(tapped_beside_resonance(older), path));
+  for (const Version& version :
+       {Version{OlderTapping::Version10, 10, false, false}, Version{OlderTapping::Version21, 21, true, false},
+        Version{OlderTapping::None, 22, true, true}}) {
+    SCOPED_TRACE(version.number);
+    ASSERT_TRUE(save_session(tapped_beside_resonance(version.older), path));
     const auto bytes = core::read_file(path);
     ASSERT_TRUE(bytes);
-    EXPECT_EQ(bytes->at(4), older ? 10 : 21);
-    EXPECT_EQ(bytes->find("\"harmonics\"") == std::string::npos, older);
+    EXPECT_EQ(bytes->at(4), version.number);
+    EXPECT_EQ(bytes->find("\"harmonics\"") != std::string::npos, version.harmonics);
+    EXPECT_EQ(bytes->find("\"jump_off\"") != std::string::npos, version.jump_off);
     const auto loaded = load_session(path);
     ASSERT_TRUE(loaded) << loaded.error().message;
-    EXPECT_EQ(loaded->parameters.harmonics_at_resonance, older ? 1U : 0U);
+    EXPECT_EQ(loaded->parameters.older_tapping, version.older);
     // computed by the program that had no other harmonics
     constexpr std::uint64_t kBeforeVersion21 = 14042984769111705009U;
-    EXPECT_EQ(digest_of(*loaded) == kBeforeVersion21, older);
+    EXPECT_EQ(digest_of(*loaded) == kBeforeVersion21, version.older == OlderTapping::Version10);
     expect_same(*loaded);
   }
 }

@@ -13,6 +13,7 @@
 #include "core/clock.h"
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
+#include "servo/servo_client.h"
 #include "servo/servo_process.h"
 #include "servo/session_file.h"
 #include "support/paper_model.h"
@@ -205,6 +206,36 @@ TEST_F(ServoDevices, ReplaysASessionTickByTickToTheSameForces) {
     ++compared;
   }
   EXPECT_GT(compared, 1500U);
+}
+
+// Error of a client whose servo ends.
+core::Error end_of(const scene::SharedModel& model, const ServoChoice& choice) {
+  auto client = ServoClient::start(model, 0, choice, kServoProgram);
+  EXPECT_TRUE(client);
+  const core::MonotonicClock clock;
+  for (int i = 0; i < 50'000; ++i) {
+    if (const auto polled = (*client)->poll(clock.now_ns()); !polled) return polled.error();
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return {core::ErrorCategory::Failed, "it goes on"};
+}
+
+// Another start would be refused, too, so that nobody tries it.
+TEST(RefusingServo, SaysWhetherItRefusesTheSceneOrASetting) {
+  scene::SharedModel too_slow = test::paper_model();  // a lever that follows the hand too late
+  scene::SharedContact& mica = too_slow.materials[test::kMica];
+  mica.law = physics::Law::Dmt;
+  mica.contact.reduced_modulus = physics::Pressure(1.5e9);
+  mica.contact.spring_constant = physics::Stiffness(40.0);
+  mica.lever = {physics::Frequency(300e3), 2500.0, physics::Temperature(295.0)};
+  mica.free_amplitude_m = 20e-9;
+  mica.drive_hz = 300e3;
+  const core::Error scene = end_of(too_slow, {});
+  EXPECT_EQ(scene.category, core::ErrorCategory::BadInputFile);
+  EXPECT_THAT(scene.message, testing::HasSubstr("the servo cannot make this scene or session felt: the line above"));
+  const core::Error setting = end_of(test::paper_model(), {.settings = {.rate_hz = 10.0}});
+  EXPECT_EQ(setting.category, core::ErrorCategory::WrongUsage);
+  EXPECT_THAT(setting.message, testing::HasSubstr("the servo refuses its settings: the line above"));
 }
 
 }  // namespace servo_devices_test

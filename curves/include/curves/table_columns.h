@@ -9,7 +9,7 @@
 namespace afm::curves {
 
 // Content of a column of a plain table. Height: that of the lever's base; tip position: base plus deflection, the
-// "separation" of other programs. Retract: the way back, without a height of its own at the same ones in reverse order.
+// "separation" of other programs. Retract: the way back, without retract heights at the heights of the way in, in reverse order.
 enum class ColumnKind {
   Height,
   TipPosition,

@@ -69,7 +69,14 @@ bool TappingModel::passes_free_phase(Length before, Length after, double fractio
   // below the fold on the way down, where only the repulsive state is, a nearly stopped swing may be attracted on
   // average
   if (tables_->figures.hysteretic && after < tables_->figures.z_jtc) return false;
-  return attraction > kClearState || (after >= tables_->figures.z_joc && attraction > -kClearState);
+  if (attraction > kClearState) return true;
+  if (after < tables_->figures.z_joc || attraction <= -kClearState) return false;
+  // onto the free swing, whose phase it need not cross
+  if (attraction <= 0.0 && envelope_->lever().jump_off == JumpOff::WhereSeen) {
+    crossed_z_ = after;
+    crossed_fraction_ = fraction;
+  }
+  return true;
 }
 
 void TappingModel::watch(Length before, Length after, double fraction, TipResponse& response) noexcept {

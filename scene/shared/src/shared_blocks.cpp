@@ -139,7 +139,8 @@ physics::LawOptions law_options(const SharedContact& material) {
 physics::DrivenLever tapping_lever(const SharedContact& material) {
   const physics::Drive drive{physics::Length(material.free_amplitude_m), physics::Frequency(material.drive_hz)};
   physics::DrivenLever lever = physics::driven_lever(material.contact.spring_constant, material.lever, drive);
-  if (material.harmonics_at_resonance != 0) lever.harmonics = physics::Harmonics::AtResonance;
+  if (material.older_tapping == OlderTapping::Version10) lever.harmonics = physics::Harmonics::AtResonance;
+  if (material.older_tapping != OlderTapping::None) lever.jump_off = physics::JumpOff::WherePhaseCrossed;
   return lever;
 }
 
@@ -189,13 +190,11 @@ core::Result<void> validate(const SharedContact& material, std::uint32_t curve_c
   if (material.dynamic != 0 && !physics::has_dynamics(material.law)) {
     return model_refused(fmt::format("the law {} has no dynamics", physics::name_of(material.law)));
   }
-  const std::uint32_t most = taps(material) ? 1 : 0;
-  // written so that NaN fails
-  if (!(material.free_amplitude_m >= 0.0 && material.viscosity_pa_s >= 0.0 &&
-        material.harmonics_at_resonance <= most)) {
+  const bool swings = material.free_amplitude_m >= 0.0 && material.viscosity_pa_s >= 0.0;  // false for NaN
+  if (!swings || material.older_tapping > (taps(material) ? OlderTapping::Version21 : OlderTapping::None))
     return model_refused("its swing is not a valid one");
-  }
-  if (material.felt_mean_force > most) return model_refused("a lever that does not tap has no mean force to feel");
+  if (material.felt_mean_force > static_cast<int>(taps(material)))
+    return model_refused("a lever that does not tap has no mean force to feel");
   if (taps(material) && (material.dynamic != 0 || material.friction.law != physics::FrictionLaw::None ||
                          !physics::has_dynamics(material.law))) {
     return model_refused(fmt::format("the law {} cannot be tapped on", physics::name_of(material.law)));

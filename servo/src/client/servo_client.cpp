@@ -31,7 +31,9 @@ core::Error ended(int status) {
               "the haptic device is missing: the line above lists what was tried; without a device, use --haptics sim"};
     case core::ExitCode::BadInputFile:
       return {core::ErrorCategory::BadInputFile,
-              "the servo cannot replay this session: the line above gives the reason"};
+              "the servo cannot make this scene or session felt: the line above gives the reason"};
+    case core::ExitCode::WrongUsage:
+      return {core::ErrorCategory::WrongUsage, "the servo refuses its settings: the line above gives the reason"};
     default:
       return {core::ErrorCategory::Failed,
               fmt::format("the servo ended unexpectedly (status {}): no force reaches the hand", status)};

@@ -17,6 +17,8 @@ namespace {
 
 constexpr const char* kHarmonics = "harmonics";
 constexpr const char* kOfTheDrive = "of-the-drive";  // harmonics of the drive; without this word those of the resonance
+constexpr const char* kJumpOff = "jump_off";
+constexpr const char* kWhereSeen = "where-seen";  // Z of a jump off; without this word that of the last crossed phase
 constexpr const char* kFeltMeanForce = "mean-force";  // felt mean force of a tapping lever; without this word its push
 
 // Omits rigid values: JSON has no infinity.
@@ -87,7 +89,8 @@ nlohmann::json json_of(const scene::SharedContact& m) {
     json["tapping"] = json_of(m.lever);
     json["tapping"].update(
         {{"free_amplitude_m", m.free_amplitude_m}, {"drive_Hz", m.drive_hz}, {"viscosity_Pa_s", m.viscosity_pa_s}});
-    if (m.harmonics_at_resonance == 0) json["tapping"][kHarmonics] = kOfTheDrive;
+    if (m.older_tapping != scene::OlderTapping::Version10) json["tapping"][kHarmonics] = kOfTheDrive;
+    if (m.older_tapping == scene::OlderTapping::None) json["tapping"][kJumpOff] = kWhereSeen;
     if (m.felt_mean_force != 0) json["tapping"]["felt"] = kFeltMeanForce;
   }
   if (m.friction.law != physics::FrictionLaw::None) json["friction"] = json_of(m.friction);
@@ -131,7 +134,9 @@ scene::SharedContact parameters_of(const nlohmann::json& json, const std::string
     m.drive_hz = tapping->at("drive_Hz").get<double>();
     m.viscosity_pa_s = tapping->at("viscosity_Pa_s").get<double>();
     m.lever = lever_of(*tapping);
-    m.harmonics_at_resonance = tapping->value(kHarmonics, "") == kOfTheDrive ? 0 : 1;
+    m.older_tapping = tapping->value(kHarmonics, "") != kOfTheDrive ? scene::OlderTapping::Version10
+                      : tapping->value(kJumpOff, "") != kWhereSeen  ? scene::OlderTapping::Version21
+                                                                    : scene::OlderTapping::None;
     m.felt_mean_force = tapping->value("felt", "") == kFeltMeanForce ? 1 : 0;
   }
   if (const auto friction = json.find("friction"); friction != json.end()) m.friction = friction_of(*friction);

@@ -27,10 +27,12 @@ bool vibrates(const RecordedSession& session) {
 
 bool is_viscous(const RecordedSession& session) { return session.law_map && session.parameters.viscous_map != 0; }
 bool has_law_map(const RecordedSession& session) { return session.law_map != nullptr; }
-bool taps(const RecordedSession& session) { return scene::taps(session.parameters); }
-bool taps_at_drive(const RecordedSession& session) {
-  return taps(session) && session.parameters.harmonics_at_resonance == 0;
+
+template <scene::OlderTapping Older>
+bool taps(const RecordedSession& session) {
+  return scene::taps(session.parameters) && session.parameters.older_tapping == Older;
 }
+
 bool has_no_particles(const RecordedSession& session) { return !session.particles; }
 bool lifts(const scene::SharedParticles& set) { return scene::has_pads(set) || scene::has_lift(set); }
 bool has_plans(const RecordedSession& session) { return session.has_plans; }
@@ -43,8 +45,9 @@ constexpr std::array kVersions{
     SessionVersion{20, kSampleBytesWithoutPush, !kPlans, {"LAWS"}, vibrates},
     SessionVersion{18, kSampleBytesWithoutPush, !kPlans, {"LAWS"}, is_viscous},
     SessionVersion{15, kSampleBytesWithoutPush, !kPlans, {"LAWS"}, has_law_map},
-    SessionVersion{21, kSampleBytesWithoutPlan, !kPlans, {}, taps_at_drive},
-    SessionVersion{10, kSampleBytesWithoutPlan, !kPlans, {}, taps},
+    SessionVersion{22, kSampleBytesWithoutPlan, !kPlans, {}, taps<scene::OlderTapping::None>},
+    SessionVersion{21, kSampleBytesWithoutPlan, !kPlans, {}, taps<scene::OlderTapping::Version21>},
+    SessionVersion{10, kSampleBytesWithoutPlan, !kPlans, {}, taps<scene::OlderTapping::Version10>},
     SessionVersion{6, kSampleBytesWithoutPush, !kPlans, {}, has_no_particles},
     SessionVersion{17, kSampleBytesWithoutLevel, kPlans, {"SOFT"}, with<is_soft>},
     SessionVersion{19, kSampleBytesWithoutLevel, kPlans, {"INKS"}, with<is_ink>},

@@ -45,7 +45,7 @@ TEST(LiveKeys, OfAKioskAreThoseOfTheManual) {
   ASSERT_TRUE(manual.has_value());
   std::string one_line = *manual;
   std::replace(one_line.begin(), one_line.end(), '\n', ' ');
-  EXPECT_THAT(one_line, testing::HasSubstr("these keys work: " + keys_of_visitors() + "."));
+  EXPECT_THAT(one_line, testing::HasSubstr("only these work: " + keys_of_visitors() + "."));
 }
 
 TEST(LiveKeys, AreBoundOnce) {

@@ -182,6 +182,24 @@ TEST(TappingModel, JumpsWhereADirectlyIntegratedLeverJumpsAtAnySpeedOfTheHand) {
   }
 }
 
+// Above the resonance the repulsive state of gold ends above A0, at 22.8 nm: the swing falls onto the free one, without
+// crossing its phase, which it crossed at the jump in.
+TEST(TappingModel, SaysWhereASwingFallsOntoTheFreeOne) {
+  const TappedSample gold{.ratio = 300.2 / 300.0, .r_nm = 50.0, .h_zj = 120.0, .e_gpa = 71.4, .gap_nm = 0.3};
+  const auto surface = gold.surface();
+  for (const JumpOff jump_off : {JumpOff::WhereSeen, JumpOff::WherePhaseCrossed}) {
+    DrivenLever lever = gold.lever();
+    lever.jump_off = jump_off;
+    TappingModel model(surface, lever, tapped_law_tables(Law::Dmt, surface, lever), kTick);
+    Path path;
+    move(model, 26.0, 8.0, 0.01, path);
+    move(model, 8.0, 26.0, 0.01, path);
+    ASSERT_EQ(path.events.size(), 2U);
+    EXPECT_EQ(path.events[1].kind, EventKind::JumpToAttraction);
+    EXPECT_NEAR(path.events[1].z.si, jump_off == JumpOff::WhereSeen ? 22.8e-9 : path.events[0].z.si, 0.1e-9);
+  }
+}
+
 TEST(TappingModel, HasNoJumpWhereTheRepulsiveStateIsAnIsland) {
   Tapped tapped(TappedSample{.a0_nm = 10.0});
   EXPECT_LT(tapped.tables->figures.z_jtc, 2_nm);

@@ -16,6 +16,10 @@ struct Drive {
 // recordings before session version 21, which replay bit for bit: 6 % above the resonance amplitudes are 1 % off.
 enum class Harmonics { OfTheDrive, AtResonance };
 
+// Z of the event of a jump off under a hand. WherePhaseCrossed is that of recordings before session version 22, which
+// replay bit for bit: a swing that falls onto the free one crosses its phase nowhere, and had the Z of the jump before.
+enum class JumpOff { WhereSeen, WherePhaseCrossed };
+
 // A lever under its drive. With x the deflection of the tip, positive away from the sample, and time in 1/w0:
 //
 //   x'' + x'/Q + x = a cos(r t) + F/k,   r = f_d/f0,   a = A0 sqrt((1-r^2)^2 + (r/Q)^2).
@@ -31,6 +35,7 @@ struct DrivenLever {
   Length base_amplitude;    // a, amplitude of the base
   double free_phase = 0.0;  // lag of the free lever behind its drive, rad
   Harmonics harmonics = Harmonics::OfTheDrive;
+  JumpOff jump_off = JumpOff::WhereSeen;
 
   double angular_resonance() const noexcept;  // w0, angular resonance in rad/s
   double angular_drive() const noexcept;      // r w0, angular drive frequency in rad/s

@@ -49,6 +49,10 @@ struct TopographyScale {
   double vertical = 1;
 };
 
+// Session version whose answers a lever that taps has, so that older sessions replay bit for bit. Version10:
+// physics::Harmonics::AtResonance; both: physics::JumpOff::WherePhaseCrossed.
+enum class OlderTapping : std::uint16_t { None = 0, Version10 = 1, Version21 = 2 };
+
 // Parameters of a contact: one combination of tip, lever, sample and medium, and its force law. The options of the law
 // are plain members, because the bytes of a std::optional cannot be checked.
 struct SharedContact {
@@ -73,9 +77,8 @@ struct SharedContact {
   std::uint32_t law_map = 0;      // 1: modulus and adhesion at each place come from the model's map
   std::uint32_t viscous_map = 0;  // 1: with law_map, damping that grows with the energy lost by the law at each place
   MapVibration map_vibration{};   // quantity felt as a vibration; with law_map only; zero: none
-  std::uint16_t felt_mean_force =
-      0;  // 1: of a lever that taps the mean force is felt, as far as an energy tank pays for it
-  std::uint16_t harmonics_at_resonance = 0;  // 1: those of a lever that taps, physics::Harmonics::AtResonance
+  std::uint16_t felt_mean_force = 0;  // 1: mean force of a lever that taps on the hand, as far as a tank pays for it
+  OlderTapping older_tapping{};       // older answers of a lever that taps
 };
 
 // True if the lever is in tapping mode.
