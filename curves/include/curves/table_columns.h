@@ -9,7 +9,8 @@
 namespace afm::curves {
 
 // Content of a column of a plain table. Height: that of the lever's base; tip position: base plus deflection, the
-// "separation" of other programs. Retract: the way back, without retract heights at the heights of the way in, in reverse order.
+// "separation" of other programs. Retract: the way back, at the heights of the way in, in reverse order, unless there
+// are retract heights.
 enum class ColumnKind {
   Height,
   TipPosition,

@@ -112,7 +112,7 @@ std::vector<render::PlotMarker> jump_markers(const physics::CycleFigures& figure
   return markers;
 }
 
-// What is drawn of a moment: without a force the tip rests on the sample until it is lifted, though the hand is deeper.
+// Moment as it is drawn: without a force the tip rests on the sample until it is lifted, though the hand is deeper.
 WallState drawn_state(const Moment& moment) {
   WallState drawn = moment.wall;
   if (moment.phase == physics::Phase::WaitForLift) drawn.tip.z_m = std::max(drawn.tip.z_m, drawn.tip.deflection_m);
