@@ -160,7 +160,7 @@ class Chain {
     eventually([&] { return (servo_ = child_of(renderer_)) > 0 && (watchdog_ = child_of(servo_)) > 0; });
     attached_ = eventually([&] {
       if (!renderer_lives() || ended(servo_)) return true;
-      return haply_ ? attach(service_, side_, [] {}) : renderer_holds();
+      return haply_ ? attach(service_, side_, [] {}) : holds(side_);
     });
   }
   Chain(const Chain&) = delete;
@@ -231,11 +231,6 @@ class Chain {
       wait_a_little();
     }
     for (;;) ::pause();
-  }
-
-  bool renderer_holds() {
-    const auto state = side_.tip_state();
-    return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
   }
 
   bool haply_;

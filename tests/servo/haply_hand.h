@@ -52,9 +52,7 @@ inline bool attach(HaplyService& service, scene::RendererSide& side, const std::
   if (!pressed || !reaches(milliseconds(1000), scene::ServoState::Running)) return false;
   move_to(0.105);
   move_to(0.14);
-  const auto state = side.tip_state();
-  return force_at(service) > 0.3 && state && state->servo_state == scene::ServoState::Running &&
-         state->hand.force_n[1] < -0.5;
+  return force_at(service) > 0.3 && holds(side);
 }
 
 }  // namespace afm::test

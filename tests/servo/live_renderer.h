@@ -45,6 +45,12 @@ inline scene::TipState tip_state_of(scene::RendererSide& side) {
   return state.value();
 }
 
+// True if the tip hangs on the sample and the hand feels more than half a newton.
+inline bool holds(scene::RendererSide& side) {
+  const auto state = side.tip_state();
+  return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
+}
+
 // Sends heartbeats while waiting, and acts as a person who holds the simulated hand.
 class LiveRenderer {
  public:
@@ -71,11 +77,7 @@ class LiveRenderer {
     return until([this](const scene::TipState& state) { return state.acknowledged.hand_script == script_; });
   }
 
-  // True if the tip hangs on the sample and the hand feels more than half a newton.
-  bool holds() {
-    const auto state = side_.tip_state();
-    return state && state->servo_state == scene::ServoState::Running && state->hand.force_n[1] < -0.5;
-  }
+  bool holds() { return test::holds(side_); }
 
   // Runs the paper's procedure until the tip hangs on mica. If the servo releases the hand before, starts again, as a
   // person would. With a dead man the button stays pressed.

@@ -13,6 +13,7 @@
 #include "core/clock.h"
 #include "haptics/servo_loop.h"
 #include "haptics/simulated_device.h"
+#include "live_renderer.h"
 #include "servo/servo_client.h"
 #include "servo/servo_process.h"
 #include "servo/session_file.h"
@@ -212,12 +213,13 @@ TEST_F(ServoDevices, ReplaysASessionTickByTickToTheSameForces) {
 core::Error end_of(const scene::SharedModel& model, const ServoChoice& choice) {
   auto client = ServoClient::start(model, 0, choice, kServoProgram);
   EXPECT_TRUE(client);
-  const core::MonotonicClock clock;
-  for (int i = 0; i < 50'000; ++i) {
-    if (const auto polled = (*client)->poll(clock.now_ns()); !polled) return polled.error();
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return {core::ErrorCategory::Failed, "it goes on"};
+  core::Error error{core::ErrorCategory::Failed, "it goes on"};
+  test::eventually([&] {
+    const auto polled = (*client)->poll(test::now_ns());
+    if (!polled) error = polled.error();
+    return !polled;
+  });
+  return error;
 }
 
 // Another start would be refused, too, so that nobody tries it.
