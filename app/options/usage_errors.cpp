@@ -99,7 +99,10 @@ std::string no_number(const std::string& value, const std::string& written) {
   const bool comma = written.find(',') != std::string::npos;
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const bool unit = !comma && !written.empty() && !is_letter(written.front()) && is_letter(written.back());
-  return text + "; give " + value + (comma ? ", with a decimal point" : unit ? ", without a unit" : "");
+  return text + "; give " + value +
+         (comma  ? ", with a decimal point and no separator of thousands"
+          : unit ? ", without a unit"
+                 : "");
 }
 
 std::string usage_text(const TypedCommand& typed, const std::string& text, bool incomplete) {

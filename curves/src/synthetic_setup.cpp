@@ -9,6 +9,8 @@
 #include <numbers>
 #include <string>
 
+#include "curves/angle_units.h"
+
 namespace afm::curves {
 
 namespace {
@@ -16,9 +18,9 @@ namespace {
 using physics::Unit;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::array kDegrees{Unit{"deg", 1.0 / kDegree, true}};
-constexpr std::array kPerVolt{Unit{"um/V", 1e6, true}, Unit{"nm/V", 1e9, true}, Unit{"pm/V", 1e12, true}};
-constinit const physics::Units kHalfAngleUnits{"an angle", kDegrees}, kSensitivityUnits{"a sensitivity", kPerVolt};
+constexpr std::array kPerVolt{Unit{"um/V", 1e6, true}, Unit{"\u00b5m/V", 1e6, false}, Unit{"\u03bcm/V", 1e6, false},
+                              Unit{"nm/V", 1e9, true}, Unit{"pm/V", 1e12, true}};
+constinit const physics::Units kSensitivityUnits{"a sensitivity", kPerVolt};
 
 const fits::ShapeRow& law_of(const SyntheticSetup& setup) { return fits::row_of(setup.shape); }
 
@@ -38,10 +40,10 @@ FieldUse of_period(const SyntheticSetup& setup) { return required_if(setup.wave_
 
 // Option that makes a number of this use meaningful.
 std::string remedy(const SyntheticField& field, const SyntheticSetup& setup) {
-  if (field.use == of_memory) return "it needs --noise";
-  if (field.use == of_bits) return "it needs --sensitivity";
-  if (field.use == of_period) return "it needs --wave";
-  return fmt::format("--law {} has no use for it", law_of(setup).name);
+  if (field.use == of_memory) return "it needs --noise; give it, too, or leave this out";
+  if (field.use == of_bits) return "it needs --sensitivity; give it, too, or leave this out";
+  if (field.use == of_period) return "it needs --wave; give it, too, or leave this out";
+  return fmt::format("--law {} has no use for it; leave it out", law_of(setup).name);
 }
 
 }  // namespace
@@ -55,7 +57,7 @@ const std::array<SyntheticField, kSyntheticFieldCount> kSyntheticFields{{
      &SyntheticSetup::radius_m, of_radius},
     {"half-angle", "half_angle_rad",
      "angle between the axis of the tip and its edge (cone) or face (pyramid); default: 17.189 deg", kDegree,
-     88.0 * kDegree, &kHalfAngleUnits, &SyntheticSetup::half_angle_rad, of_angle},
+     88.0 * kDegree, &kAngleUnits, &SyntheticSetup::half_angle_rad, of_angle},
     {"layer", "layer_m", "thickness of the sample on a rigid base", 1e-10, 1e-1, &physics::kLengthUnits,
      &SyntheticSetup::layer_m, of_layer},
     {"work-of-adhesion", "work_of_adhesion_J_per_m2", "work of adhesion, of dmt, jkr and maugis", 1e-6, 10.0,
@@ -114,7 +116,7 @@ core::Result<void> apply(std::span<const GivenNumber> given, SyntheticSetup& set
       return core::wrong_usage(fmt::format("{} needs --{}, {}", by, field.option, field.help));
     }
     if (use == FieldUse::None && is_given) {
-      return core::wrong_usage(fmt::format("--{}: {}; leave it out", field.option, remedy(field, setup)));
+      return core::wrong_usage(fmt::format("--{}: {}", field.option, remedy(field, setup)));
     }
   }
   if (law.has_layer && !law.is_exact && setup.poisson != 0.5) {

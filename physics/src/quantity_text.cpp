@@ -57,18 +57,48 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
-// Quotes a text for a message: one line, of limited length.
+// A character of typeset text and the one that a keyboard has in its place.
+struct Typeset {
+  std::string_view character, plain;
+};
+constexpr std::array kTypeset{Typeset{"\u00a0", " "}, Typeset{"\u202f", " "},   // no-break spaces
+                              Typeset{"\u2009", " "}, Typeset{"\u3000", " "},   // thin and ideographic space
+                              Typeset{"\u2212", "-"}, Typeset{"\u2019", "'"}};  // minus, apostrophe
+
+std::string with_plain_characters(std::string_view text) {
+  std::string plain(text);
+  for (const Typeset& each : kTypeset) {
+    for (std::size_t at = plain.find(each.character); at != std::string::npos; at = plain.find(each.character, at)) {
+      plain.replace(at, each.character.size(), each.plain);
+    }
+  }
+  return plain;
+}
+
+// True for ",5nm" and "'000 nm" behind a number: its decimal comma, or a separator of thousands.
+bool goes_on_with_digits(std::string_view behind) {
+  if (behind.size() < 2 || std::string_view(",.'_ ").find(behind[0]) == std::string_view::npos) return false;
+  return behind[1] >= '0' && behind[1] <= '9';
+}
+
+// Quotes a text for a message: one line, of limited length, in whole characters of UTF-8.
 std::string quoted(std::string_view text) {
   constexpr std::size_t kLongest = 40;
-  std::string result = "\"" + std::string(text.substr(0, kLongest)) + (text.size() > kLongest ? "...\"" : "\"");
+  std::size_t end = std::min(text.size(), kLongest);
+  const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+  while (end > 0 && end < text.size() && continues(text[end])) --end;
+  std::string result = "\"" + std::string(text.substr(0, end)) + (end < text.size() ? "...\"" : "\"");
   std::replace_if(
       result.begin(), result.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
   return result;
 }
 
 std::string refusal(std::string_view text, std::string_view sort, std::span<const Unit> units, std::string_view why) {
-  return "cannot read " + quoted(text) + " as " + std::string(sort) + ": " + std::string(why) +
-         (units.front().symbol.empty() ? "; write a number" : "; write a number and one of the units ") +
+  const auto shown = std::count_if(units.begin(), units.end(), [](const Unit& unit) { return unit.shown; });
+  const char* const wanted = units.front().symbol.empty() ? "; write a number"
+                             : shown == 1                 ? "; write a number and the unit "
+                                                          : "; write a number and one of the units ";
+  return "cannot read " + quoted(text) + " as " + std::string(sort) + ": " + std::string(why) + wanted +
          list_units(units);
 }
 
@@ -99,17 +129,18 @@ std::string list_units(std::span<const Unit> units) {
 
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity) {
-  std::string_view rest = trim(text);
+  const std::string plain = with_plain_characters(text);
+  std::string_view rest = trim(plain);
   // from_chars accepts a minus but no plus
   if (rest.size() > 1 && rest[0] == '+' && rest[1] != '-') rest.remove_prefix(1);
 
   double number = 0.0;
   const auto [end, status] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
   if (status == std::errc::invalid_argument) return refusal(text, sort, units, "it does not begin with a number");
-  const std::string_view symbol = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  const std::string_view behind = rest.substr(static_cast<std::size_t>(end - rest.data())), symbol = trim(behind);
   const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.symbol == symbol; });
-  if (symbol.size() > 1 && symbol[0] == ',' && symbol[1] >= '0' && symbol[1] <= '9') {
-    return refusal(text, sort, units, "it has a decimal comma; write a decimal point");
+  if (goes_on_with_digits(behind)) {
+    return refusal(text, sort, units, "write a decimal point, and no separator of thousands");
   }
   if (unit == units.end() && symbol.empty()) return refusal(text, sort, units, "it has no unit");
   if (unit == units.end()) return refusal(text, sort, units, quoted(symbol) + " is not its unit");

@@ -56,7 +56,8 @@ TEST_F(OptionsTest, ATextThatIsNoNumberIsAnsweredWithWhatTheOptionTakes) {
   command_.add_option("--option", at_s, "time of the picture").type_name("SECONDS");
   EXPECT_EQ(refusal("5s"), "--option: cannot read \"5s\" as a number that it takes; give SECONDS, without a unit");
   EXPECT_EQ(refusal("2,5"),
-            "--option: cannot read \"2,5\" as a number that it takes; give SECONDS, with a decimal point");
+            "--option: cannot read \"2,5\" as a number that it takes; give SECONDS, with a decimal point and "
+            "no separator of thousands");
   EXPECT_EQ(refusal("soon"), "--option: cannot read \"soon\" as a number that it takes; give SECONDS");
 }
 

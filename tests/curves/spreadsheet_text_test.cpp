@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Curves that a spreadsheet has saved again.
+// Curves that a spreadsheet has saved again, and plain tables as spreadsheets and data frames write them.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "curves/curve_file.h"
+#include "curves/table_columns.h"
 
 namespace afm::curves {
 namespace spreadsheet_text_test {
@@ -100,6 +102,87 @@ TEST(SpreadsheetText, IsNoneWithoutItsTraces) {
     const auto read = parse_curve(curve.heading + curve.columns + curve.rows, "curve.csv");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_THAT(read->metadata.remarks, Not(Contains(HasSubstr("spreadsheet"))));
+  }
+}
+
+// A plain table of 60 rows down and 60 back: heights of 1800 to 30, forces of 0 to 20, as `row` writes them.
+template <class Row>
+std::string plain_table(const Row& row) {
+  std::string text;
+  for (int i = 0; i < 120; ++i) {
+    const int step = i < 60 ? i : 119 - i;
+    text += row(1800 - 30 * step, std::max(0, step - 39)) + "\n";
+  }
+  return text;
+}
+
+core::Result<RecordedCurve> read_plain(const std::string& text) {
+  CurveReading reading;
+  if (const auto columns = parse_table_columns("height:nm force:nN")) reading.columns = *columns;
+  return parse_curve(text, "a.csv", reading);
+}
+
+std::string refusal_of_plain(const std::string& text) {
+  const auto curve = read_plain(text);
+  return curve ? "accepted" : curve.error().message;
+}
+
+// as pandas writes it with decimal=","
+TEST(PlainTable, HasDecimalCommasInQuotesBetweenCommas) {
+  const auto curve =
+      read_plain("height,force\n" + plain_table([](int z, int f) { return fmt::format("\"{},50\",\"{},25\"", z, f); }));
+  ASSERT_TRUE(curve) << curve.error().message;
+  ASSERT_EQ(curve->points.size(), 120U);
+  EXPECT_NEAR(curve->points[0].z.si, 1800.5e-9, 1e-18);
+  EXPECT_NEAR(curve->points[59].force.si, 20.25e-9, 1e-20);
+  EXPECT_THAT(curve->metadata.remarks, testing::IsEmpty());
+}
+
+TEST(PlainTable, HasNoBreakSpacesAroundItsNumbers) {
+  for (const std::string blank : {"\u00a0", "\u202f"}) {
+    const auto curve =
+        read_plain(plain_table([&](int z, int f) { return fmt::format("{}{}\t{}{}", blank, z, f, blank); }));
+    ASSERT_TRUE(curve) << curve.error().message;
+    EXPECT_NEAR(curve->points[0].z.si, 1800e-9, 1e-18);
+  }
+}
+
+// 1,020 above 990: read as a decimal comma, the heights would be 1.02 nm and 990 nm.
+TEST(PlainTable, WithSeparatorsOfThousandsInWholeNumbersIsRefused) {
+  const auto with_thousands = [](int z) {
+    return z < 1000 ? fmt::format("{}", z) : fmt::format("{},{:03}", z / 1000, z % 1000);
+  };
+  for (const char* form : {"{}\t{}", "{};{}", "\"{}\",\"{}\""}) {
+    const std::string text =
+        plain_table([&](int z, int f) { return fmt::format(fmt::runtime(form), with_thousands(z), f); });
+    EXPECT_THAT(refusal_of_plain(text), HasSubstr("column 1 has \"1,800\" and whole numbers without a comma")) << form;
+  }
+  const auto decimals = [](int z, int f) { return fmt::format("{},{:03}\t{}", z / 1000, z % 1000, f); };
+  EXPECT_EQ(refusal_of_plain(plain_table(decimals)), "accepted") << "1,800 to 0,030 are decimal commas";
+}
+
+TEST(PlainTable, WithAFactorAboveItIsRefused) {
+  const std::string rows =
+      plain_table([](int z, int f) { return fmt::format("   {:.4f}    {:.4f}", z * 1e-3, f * 1e-3); });
+  EXPECT_THAT(
+      refusal_of_plain("z =\n\n   1.0e+03 *\n\n" + rows),
+      HasSubstr("\"1.0e+03 *\" above its numbers is a factor, as MATLAB prints one: write the numbers without it"));
+  EXPECT_EQ(refusal_of_plain("heights * factor\n" + rows), "accepted");
+}
+
+TEST(PlainTable, SaysThatItsLastLineHasNoEnd) {
+  const std::string whole = plain_table([](int z, int f) { return fmt::format("{}\t{}.25", z, f); });
+  EXPECT_THAT(read_plain(whole)->metadata.remarks, testing::IsEmpty());
+  EXPECT_THAT(read_plain(whole.substr(0, whole.size() - 1))->metadata.remarks,
+              testing::ElementsAre("its last line has no end, and may have lost digits"));
+}
+
+TEST(TableColumns, AreSeparatedByBlanks) {
+  for (const char* text :
+       {"height:nm,force:nN", "height:nm, force:nN", "height:nm;force:nN", "height:nm\u00a0force:nN"}) {
+    const auto parsed = parse_table_columns(text);
+    ASSERT_FALSE(parsed) << text;
+    EXPECT_THAT(parsed.error().message, HasSubstr("separate the columns by blanks")) << text;
   }
 }
 

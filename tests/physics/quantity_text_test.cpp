@@ -87,10 +87,40 @@ TEST(QuantityText, RefusesABareNumberAndListsTheUnits) {
             "cannot read \"50\" as a length: it has no unit; write a number and one of the units m, mm, um, nm, pm");
 }
 
+TEST(QuantityText, NamesASingleUnitAsOne) {
+  EXPECT_THAT(refused("50", kDensityUnits), testing::EndsWith("write a number and the unit kg/m3"));
+}
+
 TEST(QuantityText, RefusesAnotherDimension) {
   EXPECT_THAT(refused("50nN", kLengthUnits), HasSubstr("\"nN\" is not its unit"));
-  EXPECT_THAT(refused("0,5nm", kLengthUnits), HasSubstr("it has a decimal comma; write a decimal point"));
+  EXPECT_THAT(refused("0,5nm", kLengthUnits), HasSubstr("write a decimal point, and no separator of thousands"));
   EXPECT_THAT(refused("5 mJ/m2", kStiffnessUnits), HasSubstr("one of the units N/m, mN/m"));
+}
+
+TEST(QuantityText, ReadsBlanksAndSignsOfTypesetText) {
+  // no-break, narrow no-break, thin and ideographic space, as copied from a web page or a paper
+  for (const std::string_view blank : {"\u00a0", "\u202f", "\u2009", "\u3000"}) {
+    EXPECT_DOUBLE_EQ(parsed("20" + std::string(blank) + "nm", kLengthUnits), 2e-8);
+    EXPECT_DOUBLE_EQ(parsed(std::string(blank) + "20 nm" + std::string(blank), kLengthUnits), 2e-8);
+  }
+  EXPECT_DOUBLE_EQ(parsed("\u22125 nm", kLengthUnits), -5e-9);  // minus
+  EXPECT_DOUBLE_EQ(parsed("2e\u22128 m", kLengthUnits), 2e-8);
+  EXPECT_THAT(refused("-\u22125 nm", kLengthUnits), HasSubstr("it does not begin with a number"));
+}
+
+// A decimal point in place of the comma of "1,000 nm" would make it 1 nm.
+TEST(QuantityText, CallsNoSeparatorOfThousandsADecimalComma) {
+  const std::string advice = "write a decimal point, and no separator of thousands";
+  for (const std::string_view text :
+       {"1,000nm", "1,000.5 nm", "1.000,5 nm", "1'000nm", "1_000 nm", "1 000 nm", "1\u00a0000 nm", "1\u2019000 nm"}) {
+    EXPECT_THAT(refused(text, kLengthUnits), HasSubstr(advice)) << text;
+  }
+  EXPECT_THAT(refused("1 nm", kForceUnits), Not(HasSubstr(advice)));
+}
+
+TEST(QuantityText, QuotesWholeCharacters) {
+  const std::string error = refused(std::string(39, 'a') + "\u00b5\u00b5", kLengthUnits);
+  EXPECT_THAT(error, HasSubstr("\"" + std::string(39, 'a') + "...\""));
 }
 
 TEST(QuantityText, TakesInfinityOnlyWhereAllowedAndWithItsUnit) {
@@ -114,7 +144,7 @@ TEST(QuantityText, KeepsItsMessagesOnOneShortLine) {
 }
 
 TEST(QuantityText, IsTotalOverAllStrings) {
-  constexpr std::string_view kAlphabet = "0123456789.+-einfa nmuJNz/^2\u00b5\n";
+  constexpr std::string_view kAlphabet = "0123456789.+-einfa nmuJNz/^2\u00b5\n\u00a0\u2212";
   std::mt19937 random(20240501);
   std::uniform_int_distribution<std::size_t> length(0, 12);
   std::uniform_int_distribution<std::size_t> pick(0, kAlphabet.size() - 1);

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "bytes/scaled_unit.h"
+#include "bytes/table_field.h"
 #include "bytes/text_table.h"
 #include "curves/curve_error.h"
 #include "curves/recorded_curve.h"
@@ -26,50 +25,6 @@ namespace {
 // Separators in the order of trial: commas last, because they may be decimal ones. A blank: any number of blanks and
 // tabs.
 constexpr std::array kSeparators{'\t', ';', ' ', ','};
-
-void split_line(std::string_view line, char separator, std::vector<std::string_view>& fields) {
-  if (separator != ' ') return split(line, separator, fields);
-  fields.clear();
-  for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    fields.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-}
-
-struct TableNumber {
-  double value = 0;
-  bool has_point = false, has_comma = false;  // decimal marks found
-};
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-// Number in quotes or without, with a decimal comma where commas do not separate. Empty for anything else.
-std::optional<TableNumber> table_number(std::string_view field, char separator) {
-  field = trimmed(field);
-  if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
-    field = trimmed(field.substr(1, field.size() - 2));
-  std::string text(field);
-  // Unicode's minus, as some languages of Windows write it
-  constexpr std::string_view kMinus = "\u2212";
-  for (std::size_t at = text.find(kMinus); at != std::string::npos; at = text.find(kMinus)) {
-    text.replace(at, kMinus.size(), "-");
-  }
-  TableNumber number;
-  number.has_point = text.find('.') != std::string::npos;
-  const std::size_t comma = text.find(',');
-  if (comma != std::string::npos) {
-    const bool between_digits =
-        comma > 0 && is_digit(text[comma - 1]) && comma + 1 < text.size() && is_digit(text[comma + 1]);
-    if (separator == ',' || number.has_point || !between_digits) return std::nullopt;
-    text[comma] = '.';
-    number.has_comma = true;
-  }
-  if (text.starts_with('+')) text.erase(0, 1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number.value);
-  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number.value);
-  return is_number ? std::optional(number) : std::nullopt;
-}
 
 // SI unit without prefix of a column; empty: none.
 std::string_view base_unit(const TableColumn& column) {
@@ -130,10 +85,26 @@ bool names_tip(std::string_view words, const TableColumn& column) {
   return lower.find("separation") != std::string::npos || lower.find("tip position") != std::string::npos;
 }
 
+// Commas in the numbers of a column.
+struct ColumnCommas {
+  std::string_view separated;         // first field whose comma may separate thousands; empty: none
+  bool other = false, whole = false;  // true: a comma that is a decimal one; a whole number without a comma
+
+  void see(const TableNumber& number, std::string_view field) {
+    if (number.may_have_thousands && separated.empty()) {
+      separated = trimmed(field);
+      if (separated.starts_with('"')) separated = separated.substr(1, separated.size() - 2);
+    }
+    other = other || (number.has_comma && !number.may_have_thousands);
+    whole = whole || number.is_whole;
+  }
+};
+
 // Reads lines into columns; a column that is not read stays empty.
 class TableReader {
  public:
-  explicit TableReader(const TableColumns& columns) : columns_(columns), table_(columns.size()), row_(columns.size()) {}
+  explicit TableReader(const TableColumns& columns)
+      : columns_(columns), table_(columns.size()), row_(columns.size()), commas_of_(columns.size()) {}
 
   void read(std::string_view line, std::size_t number) {
     if (rows_ == 0 && !finds_separator(line)) {
@@ -156,6 +127,9 @@ class TableReader {
     if (bad < columns_.size()) {
       throw CurveError(fmt::format("line {}: column {} is \"{}\", not a finite number", number, bad + 1,
                                    trimmed(fields_[bad]).substr(0, 40)));
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (columns_[i].kind != ColumnKind::Nothing) commas_of_[i].see(row_[i], fields_[i]);
     }
     if (more_fields_at_ == 0 && has_more_fields()) {
       more_fields_at_ = number;
@@ -184,6 +158,7 @@ class TableReader {
   // Call after the last line.
   void finish() {
     leave_out_counts();
+    check_commas();
     if (padding_ > 0)
       remarks_.push_back(fmt::format("no numbers at its end: the last {} left out",
                                      padding_ == 1 ? "line is" : fmt::format("{} lines are", padding_)));
@@ -233,6 +208,17 @@ class TableReader {
       row_[i] = *number;
     }
     return columns_.size();
+  }
+
+  // Refuses whole numbers with commas before each third digit, beside others without: "1,020" above "990".
+  void check_commas() const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (commas_of_[i].separated.empty() || commas_of_[i].other || !commas_of_[i].whole) continue;
+      throw CurveError(
+          fmt::format("column {} has \"{}\" and whole numbers without a comma: does it separate thousands? Write the "
+                      "numbers without such separators",
+                      i + 1, commas_of_[i].separated));
+    }
   }
 
   void see_first(std::size_t number) {
@@ -286,6 +272,13 @@ class TableReader {
 
   // Compares the units of the lowest line that names them with those of --columns.
   void check_heading() {
+    const auto factor = std::find_if(headings_.begin(), headings_.end(), is_factor);
+    if (factor != headings_.end()) {
+      throw CurveError(fmt::format(
+          "\"{}\" above its numbers is a factor, as MATLAB prints one: write the numbers without it, such as by "
+          "format longG or writematrix",
+          trimmed(*factor)));
+    }
     for (auto line = headings_.rbegin(); line != headings_.rend(); ++line) {
       split_line(*line, separator_, fields_);
       // "units: nm nN"
@@ -332,6 +325,7 @@ class TableReader {
   const TableColumns& columns_;
   std::vector<std::vector<double>> table_;
   std::vector<TableNumber> row_;
+  std::vector<ColumnCommas> commas_of_;
   std::vector<double> first_;  // numbers of the first row as written
   std::size_t first_at_ = 0;   // line number of the first row
   std::vector<std::string_view> fields_;
@@ -349,7 +343,8 @@ TableNumbers table_numbers(std::string_view bytes, const TableColumns& columns) 
   if (bytes.find('\0') != std::string_view::npos) refuse_no_text(bytes);
   TableReader reader(columns);
   std::string_view line;
-  for (Lines lines(bytes); lines.next(line);) {
+  Lines lines(bytes);
+  while (lines.next(line)) {
     const std::string_view words = trimmed(line);
     if (words.starts_with('#')) {
       reader.see_heading(trimmed(words.substr(1)));
@@ -366,7 +361,11 @@ TableNumbers table_numbers(std::string_view bytes, const TableColumns& columns) 
         fmt::format("no line has {} columns with numbers where --columns names them{}", columns.size(), last));
   }
   reader.finish();
-  return {reader.take(), reader.take_remarks()};
+  std::vector<std::string> remarks = reader.take_remarks();
+  if (lines.is_open() && !trimmed(line).empty()) {
+    remarks.emplace_back("its last line has no end, and may have lost digits");
+  }
+  return {reader.take(), std::move(remarks)};
 }
 
 }  // namespace afm::curves

@@ -255,6 +255,10 @@ core::Result<TableColumns> parse_table_columns(std::string_view text) {
   for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
     const std::string_view word = text.substr(0, std::min(text.find_first_of(" \t"), text.size()));
     text.remove_prefix(word.size());
+    if (word.find_first_of(",;") != std::string_view::npos || word.find("\u00a0") != std::string_view::npos) {
+      return core::wrong_usage(
+          fmt::format("\"{}\": separate the columns by blanks, as in \"height:um force:nN\"", word));
+    }
     const std::size_t colon = std::min(word.find(':'), word.size());
     const std::string_view name = word.substr(0, colon), unit = word.substr(std::min(colon + 1, word.size()));
     const auto row = std::find_if(kColumnRows.begin(), kColumnRows.end(),

@@ -58,8 +58,9 @@ std::string list_units(std::span<const Unit> units);
 std::variant<double, std::string> parse_si(std::string_view text, std::string_view sort, std::span<const Unit> units,
                                            Infinity infinity);
 
-// Reads a decimal number and a unit, with or without blanks around them. Rejects, with a message: a bare number,
-// another dimension's unit, a number beyond double, NaN, and, unless allowed, "inf" (which needs its unit too).
+// Reads a decimal number and a unit, with or without blanks, also no-break ones, around them. Rejects, with a message:
+// a bare number, another dimension's unit, a number beyond double, NaN, and, unless allowed, "inf" (which needs its
+// unit too).
 template <class Q>
 ParsedQuantity<Q> parse_quantity(std::string_view text, const UnitList<Q>& list,
                                  Infinity infinity = Infinity::Refused) {

@@ -163,7 +163,7 @@ TEST(AnalyseCommand, ReadsASensitivityThatIsADeflectionPerVolt) {
       {"70", "it has no unit"},
       {"-70nm/V", "is not above 0"},
       {"0nm/V", "is not above 0"},
-      {"0,05um/V", "it has a decimal comma; write a decimal point"}};
+      {"0,05um/V", "write a decimal point, and no separator of thousands"}};
   for (const auto& [wrong, why] : refused) {
     const auto sensitivity = parse_sensitivity(wrong);
     ASSERT_FALSE(sensitivity.has_value()) << wrong;
