@@ -27,6 +27,7 @@
 #include "app/options/standard_output.h"
 #include "core/enumerators.h"
 #include "core/file_kind.h"
+#include "core/file_names.h"
 #include "core/json_text.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
@@ -131,15 +132,29 @@ core::Result<void> check_options(const std::string& file, const std::vector<Opti
 
 // A fit of several files, or one whose --out is no picture, so that a pattern may match one file.
 bool wants_table(const std::vector<std::string>& files, const AnalyseOptions& options) {
-  return files.size() > 1 || (options.fit.shape && !options.out.empty() && !options.out.ends_with(".svg"));
+  return files.size() > 1 || (options.fit.shape && !options.out.empty() && !core::has_ending(options.out, ".svg"));
+}
+
+// True for "fit.png" and "fits.csv", which are not yet folders.
+bool looks_like_a_file(const std::string& name) {
+  std::error_code none;
+  return !std::filesystem::is_directory(name, none) &&
+         (core::is_named_as_another(name, ".svg") || core::has_ending(name, ".csv") || core::has_ending(name, ".tsv") ||
+          core::has_ending(name, ".txt") || core::has_ending(name, ".json"));
 }
 
 core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<OptionOfKind>& of_kind) {
   if (!options.fit.shape) return wrong_usage("several files are for a fit; add --fit SHAPE, or name one file");
   if (options.out.empty()) return wrong_usage("several files need --out FOLDER, for the table of their fits");
-  if (options.out.ends_with(".svg")) {
+  if (core::has_ending(options.out, ".svg")) {
     return wrong_usage(
         fmt::format("--out {}: several files need a folder for their table, not a picture", options.out));
+  }
+  if (looks_like_a_file(options.out)) {
+    return wrong_usage(fmt::format(
+        "--out {}: this looks like the name of a file, and a table of fits needs a folder; a picture of one "
+        "fit ends in .svg",
+        options.out));
   }
   if (options.json) return wrong_usage("--json is for one file; the table has every number");
   if (!options.beside.empty()) return wrong_usage("--beside is for one file; leave it out");
@@ -158,6 +173,9 @@ core::Result<void> check_batch(const AnalyseOptions& options, const std::vector<
 
 // Checks the file of a plot: an older plot is replaced, a measurement never.
 core::Result<void> check_plot(const std::string& path) {
+  if (core::is_named_as_another(path, ".svg")) {
+    return wrong_usage(fmt::format("--out {}: name a file that ends in .svg, which it will be", path));
+  }
   if (const auto writable = core::check_writable(path); !writable) {
     return wrong_usage("--out: " + writable.error().message);
   }

@@ -15,6 +15,7 @@
 
 #include "app/options/command.h"
 #include "app/options/standard_output.h"
+#include "core/file_names.h"
 #include "core/log.h"
 #include "core/whole_file.h"
 #include "curves/curve_file.h"
@@ -54,7 +55,12 @@ std::optional<curves::WritableFormat> file_format_of(std::string_view word) {
 }
 
 // Refuses the name of an image, and the replacement of a curve by something else.
-core::Result<void> check_out(const std::string& out, std::string_view format) {
+core::Result<void> check_out(const CurveOptions& options, std::string_view format) {
+  const std::string& out = options.out;
+  if (options.format.empty() && format == "csv" && core::is_named_as_another(out, ".csv")) {
+    return wrong_usage(fmt::format(
+        "--out {}: a curve is written in no such format; name one that ends in .csv, .json, .svg, .tab or .h5", out));
+  }
   if (curves::image_format(out)) {
     return wrong_usage(fmt::format(
         "--out {}: this is a name for an image; take one that ends in .csv, .json, .svg, .tab or .h5", out));
@@ -238,7 +244,7 @@ void add_output_options(OptionList& command, CurveOptions& options) {
 core::Result<void> write_curve_command(const CurveOptions& options) {
   const auto format = output_format(options);
   if (!format) return tl::unexpected(format.error());
-  if (const auto checked = check_out(options.out, *format); !checked) return checked;
+  if (const auto checked = check_out(options, *format); !checked) return checked;
   if (options.tapping.mode != "contact") return write_tapping(with_swept_amplitude(options), *format);
   if (const auto checked = check_tapping_options(options.tapping); !checked) return tl::unexpected(checked.error());
   const auto setup = contact_setup(with_swept_values(options.contact, options.sweeps));

@@ -12,6 +12,7 @@
 #include "app/options/enum_option.h"
 #include "app/options/pixel_size_option.h"
 #include "app/options/quantity_option.h"
+#include "core/file_names.h"
 #include "core/output_folder.h"
 #include "curves/curve_file.h"
 #include "curves/curve_series.h"
@@ -89,7 +90,7 @@ core::Result<void> generate_curves(const GenerateOptions& options, bool is_map) 
 }
 
 core::Result<void> generate_image(const ScanOptions& options) {
-  if (!options.out.ends_with(".gwy")) {
+  if (!core::has_ending(options.out, ".gwy")) {
     return wrong_usage(fmt::format("--out {}: name a file that ends in .gwy", options.out));
   }
   auto files = Together::open(options.out);

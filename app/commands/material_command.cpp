@@ -176,7 +176,7 @@ void add_material_command(OptionList& program, const CommandContext& context) {
       .type_name("MATERIAL");
   add_contact_options(command, options->contact, context);
   command.add_option("--map", options->map, "write the adhesion map, with this contact marked, as SVG")
-      .picture_file()
+      .picture_file(".svg")
       .type_name("FILE");
   command.footer(
       "Each parameter overrides that of the material or the probe.\n"

@@ -16,6 +16,7 @@
 #include "app/options/command.h"
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
+#include "core/file_names.h"
 #include "core/json_text.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
@@ -270,7 +271,7 @@ core::Result<void> run_particles(const ParticlesOptions& options, const std::str
   if (!path) return tl::unexpected(path.error());
   const auto set = scene::load_particle_set(*path);
   if (!set) return tl::unexpected(set.error());
-  if (!options.out.empty() && !((set->soft || set->ink) && options.out.ends_with(".gwy"))) {
+  if (!options.out.empty() && !((set->soft || set->ink) && core::has_ending(options.out, ".gwy"))) {
     return core::wrong_usage("--out: takes the image of a soft sample or of ink, in a file that ends in .gwy");
   }
   const bool has_islands = std::any_of(set->setup.species.begin(), set->setup.species.end(), physics::is_island);

@@ -344,7 +344,7 @@ void add_render_command(OptionList& program, const CommandContext& context) {
                   "file of the force map that the session felt, if it no longer lies where it was recorded")
       .needs(session)
       .type_name("FILE");
-  command.add_option("--out", options->out, "PNG file to write").picture_file().type_name("FILE.png");
+  command.add_option("--out", options->out, "PNG file to write").picture_file(".png").type_name("FILE.png");
   const Option at = command
                         .add_option("--at", options->at_s,
                                     "time since the start of the session or of the model's animations, in seconds; "

@@ -14,6 +14,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/standard_output.h"
 #include "app/tapping/tapping_command.h"
+#include "core/file_names.h"
 #include "core/json_text.h"
 #include "core/whole_file.h"
 #include "core/written_by.h"
@@ -36,7 +37,7 @@ core::Result<void> check(const ScanOptions& options) {
   if (!options.out.empty() && !curves::image_format(options.out)) {
     return wrong_usage(fmt::format("--out {}: name a file that ends in .gwy or .gsf", options.out));
   }
-  if (!options.picture.empty() && !options.picture.ends_with(".png")) {
+  if (!options.picture.empty() && !core::has_ending(options.picture, ".png")) {
     return wrong_usage(fmt::format("--picture {}: name a file that ends in .png", options.picture));
   }
   return {};
@@ -193,7 +194,7 @@ void add_output_options(OptionList& command, ScanOptions& options) {
       .type_name("NAME");
   command.add_flag("--json", options.json, "print settings and figures of every channel in SI units as JSON");
   command.add_option("--picture", options.picture, "write the height, or the channel, as a picture (PNG) to FILE")
-      .picture_file()
+      .picture_file(".png")
       .type_name("FILE");
   command
       .add_option("--out", options.out,

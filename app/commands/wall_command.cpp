@@ -339,7 +339,7 @@ void add_wall_command(OptionList& program, const CommandContext& context) {
                    "down, near plane 0.1 m");
   command.add_flag("--test-pattern", options->test_pattern,
                    "draw the calibration picture: grid, cross, circle, ruler, L and R; needs --out");
-  command.add_option("--out", options->out, "PNG file for the test pattern").picture_file().type_name("FILE.png");
+  command.add_option("--out", options->out, "PNG file for the test pattern").picture_file(".png").type_name("FILE.png");
   command.add_flag("--start", options->start, "print the commands that start a wall of several machines, one for each");
   pixel_size_option(command, "--size", options->picture.size_px, "size of the whole test pattern in pixels");
   add_stereo_options(command, options->picture, "the outputs of the wall file, otherwise side-by-side");

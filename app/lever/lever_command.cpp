@@ -182,7 +182,7 @@ void add_lever_command(OptionList& program, const CommandContext&) {
       "standard uncertainty of an input, in per cent or in its unit: " + uncertain_names() + "; one option for each");
   command.add_flag("--json", options->json, "print JSON in SI units; null marks a value that was not computed");
   command.add_option("--out", options->out, "write a plot of spectrum and model (SVG) to FILE")
-      .picture_file()
+      .picture_file(".svg")
       .needs(thermal)
       .type_name("FILE");
   command.footer(

@@ -20,6 +20,7 @@
 #include "app/options/nearest_word.h"
 #include "app/options/usage_errors.h"
 #include "app/options/written_files.h"
+#include "core/file_names.h"
 #include "core/whole_file.h"
 
 namespace afm::app {
@@ -267,7 +268,11 @@ Option& Option::written() {
   return *this;
 }
 
-Option& Option::picture_file() {
+Option& Option::picture_file(const char* ending) {
+  option_->check([ending](const std::string& path) {
+    if (!core::is_named_as_another(path, ending)) return std::string();
+    return fmt::format("{}: name a file that ends in {}, which it will be", path, ending);
+  });
   option_->check(CLI::Validator([](std::string&) { return std::string(); }, "", kDraws));
   return writable_file();
 }

@@ -50,8 +50,9 @@ class Option {
   // The value is a file or folder to be written, as implied by writable_file(). WrongUsage if it is a file that
   // another option reads.
   Option& written();
-  // As writable_file(), for a picture. Also WrongUsage if the file is a measurement, which the picture would replace.
-  Option& picture_file();
+  // As writable_file(), for a picture of the format with this ending. Also WrongUsage if its name is that of another
+  // kind of file, or the file is a measurement, which the picture would replace.
+  Option& picture_file(const char* ending);
 
   // Hides the option from help, man page and completion: for our own programs.
   Option& hidden();

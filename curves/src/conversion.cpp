@@ -5,12 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "core/file_kind.h"
+#include "core/whole_file.h"
 #include "core/written_by.h"
+#include "curves/curve_file.h"
 #include "curves/curve_series.h"
 #include "curves/image_file.h"
 #include "curves/image_output.h"
+#include "curves/unread_kinds.h"
 #include "physics/imaging/scan_image.h"
 #include "physics/quantity_text.h"
 
@@ -154,10 +161,23 @@ core::Result<Converted> converted_image(const std::string& file, const std::stri
   return result;
 }
 
+// Why a file cannot be converted that is neither curve nor image.
+core::Error refusal_of_other(const std::string& file) {
+  const auto beginning = core::read_beginning(file, core::kFileKindBytes);
+  if (!beginning) return beginning.error();
+  std::error_code unknown;
+  std::string kind = unread_kind_of(*beginning, std::filesystem::file_size(file, unknown));
+  if (kind.empty()) kind = "of no known kind; a table of numbers needs --columns \"height:um force:nN\"";
+  return {core::ErrorCategory::BadInputFile,
+          fmt::format("cannot convert {}: it is {}; known are curves: {}; images: {}", file, kind, kCurveFiles,
+                      kImageFiles)};
+}
+
 }  // namespace
 
 core::Result<Converted> converted(const std::string& file, const std::string& name, const ConversionOptions& options) {
   if (!options.reading.columns && is_image_file(file)) return converted_image(file, name, options);
+  if (!options.reading.columns && !is_curve_file(file)) return tl::unexpected(refusal_of_other(file));
   return converted_curves(file, name, options);
 }
 

@@ -174,6 +174,18 @@ TEST(FileNames, HaveNoSlash) {
   EXPECT_EQ(in_file_name("Gold, (111)"), "Gold, (111)");
 }
 
+TEST(FileNames, HaveAnEndingInSmallOrCapitalLetters) {
+  EXPECT_TRUE(has_ending("a.svg", ".svg"));
+  EXPECT_TRUE(has_ending("dir.png/A.SVG", ".svg"));
+  EXPECT_FALSE(has_ending("a.svg.png", ".svg"));
+  EXPECT_FALSE(has_ending("svg", ".svg"));
+  EXPECT_TRUE(is_named_as_another("a.PNG", ".svg"));
+  EXPECT_TRUE(is_named_as_another("a.svg", ".png"));
+  EXPECT_FALSE(is_named_as_another("a.PNG", ".png"));
+  EXPECT_FALSE(is_named_as_another("day 2.1", ".svg"));
+  EXPECT_FALSE(is_named_as_another("a.png/picture", ".svg"));
+}
+
 TEST_F(WholeFile, NamesWhatIsNone) {
   std::ofstream(path("file")) << "x";
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);

@@ -189,5 +189,22 @@ TEST(Conversion, RefusesWhatAFormatDoesNotHold) {
   EXPECT_THAT(refusal(path_of("missing.tab"), "new.tab"), HasSubstr("missing.tab"));
 }
 
+// whatever the name of the new file
+TEST(Conversion, SaysWhatAFileOfNoKindIs) {
+  const support::ScratchFolder folder;
+  const std::string picture = folder.write("a.png", "\x89PNG\r\n\x1a\n"), table = folder.write("a.txt", "1 2\n3 4\n");
+  for (const char* name : {"new.gwy", "new.tab", "new.xyz"}) {
+    EXPECT_THAT(refusal(picture, name), HasSubstr("a.png: it is a PNG")) << name;
+    EXPECT_THAT(refusal(table, name), HasSubstr("a table of numbers needs --columns")) << name;
+  }
+}
+
+TEST(Conversion, TakesAnEndingInCapitals) {
+  const auto tab = converted(path_of("bom.tab"), "NEW.TAB", {});
+  EXPECT_TRUE(tab) << tab.error().message;
+  const auto gsf = converted(path_of("qnm-log.spm"), "NEW.GSF", {});
+  EXPECT_TRUE(gsf) << gsf.error().message;
+}
+
 }  // namespace conversion_test
 }  // namespace afm::curves

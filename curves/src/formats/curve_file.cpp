@@ -16,6 +16,7 @@
 #include "confined/confined_child.h"
 #include "confined/mapped_file.h"
 #include "core/enumerators.h"
+#include "core/file_names.h"
 #include "core/printable.h"
 #include "core/whole_file.h"
 #include "curves/curve_error.h"
@@ -280,7 +281,7 @@ std::vector<WritableFormat> writable_formats() {
 
 std::optional<WritableFormat> writable_format_of(std::string_view name) {
   for (const WritableFormat& format : writable_formats()) {
-    if (name.ends_with(format.ending)) return format;
+    if (core::has_ending(name, format.ending)) return format;
   }
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/file_names.h"
 #include "curves/image_output.h"
 
 namespace afm::curves {
@@ -126,8 +127,8 @@ constexpr std::array<std::string_view, 9> kNamesOfGsf{"XRes",    "YRes",    "XRe
 }  // namespace
 
 std::optional<ImageFormat> image_format(std::string_view path) {
-  if (path.ends_with(".gwy")) return ImageFormat::Gwy;
-  if (path.ends_with(".gsf")) return ImageFormat::Gsf;
+  if (core::has_ending(path, ".gwy")) return ImageFormat::Gwy;
+  if (core::has_ending(path, ".gsf")) return ImageFormat::Gsf;
   return std::nullopt;
 }
 

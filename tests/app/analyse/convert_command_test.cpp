@@ -51,6 +51,28 @@ TEST(ConvertCommand, ReplacesNoFile) {
   EXPECT_EQ(run_touchafm("convert " + data("bom.tab") + " " + folder.file("new.tab")).exit_code, 0);
 }
 
+// Bytes of SVG in a file called .png open in no viewer, and a folder called fit.csv is no table.
+TEST(WrittenFile, HasNoNameOfAnotherKind) {
+  const support::ScratchFolder folder;
+  const std::string gel = folder.file("gel.tab");
+  ASSERT_EQ(run_touchafm("generate curve --modulus 3kPa --noise 5pN --out " + gel).exit_code, 0);
+  const std::string fit = "analyse " + gel + " --fit paraboloid --radius 1um --out ";
+  for (const char* name : {"a.png", "a.PDF"}) {
+    for (const std::string& command : {"analyse " + gel + " --out ", std::string("material gold --map "), fit}) {
+      expect_refusal(run_touchafm(command + folder.file(name)), 2, ".svg");
+    }
+    expect_refusal(run_touchafm("curve --material gold --out " + folder.file(name)), 2, "name one that ends in .csv");
+  }
+  for (const char* name : {"a.csv", "a.tsv"}) expect_refusal(run_touchafm(fit + folder.file(name)), 2, "looks like");
+  expect_refusal(run_touchafm("render --journey 3 --size 64x64 --out " + folder.file("a.jpg")), 2, "ends in .png");
+  EXPECT_EQ(run_touchafm(fit + folder.file("A.SVG")).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.file("A.SVG")));
+  EXPECT_EQ(run_touchafm(fit + folder.file("day2.1")).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::is_directory(folder.file("day2.1")));
+  const std::string scan = "scan --material gold --pixels 16 --rate 20Hz --out " + folder.file("A.GWY");
+  EXPECT_EQ(run_touchafm(scan + " --picture " + folder.file("A.PNG")).exit_code, 0);
+}
+
 TEST(WrittenFile, IsNoneThatTheCommandReads) {
   const support::ScratchFolder folder;
   const std::string curve = folder.write("curve.tab", core::read_file(data("bom.tab")).value()),
