@@ -330,7 +330,9 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   if (summary.has_fits()) return drawn;
   return core::failure(
       core::ErrorCategory::BadInputFile,
-      fmt::format("none of the {} files has a curve that can be fitted; {} has the reasons", files.size(), path));
+      fmt::format("{} a curve that can be fitted; {} has the reasons",
+                  files.size() == 1 ? "the file has not" : fmt::format("none of the {} files has", files.size()),
+                  path));
 }
 
 }  // namespace afm::app

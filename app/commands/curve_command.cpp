@@ -181,6 +181,19 @@ core::Result<void> write_sweep(const CurveOptions& options, const curves::Contac
       options.out);
 }
 
+// Refuses a number that the sweep would replace.
+core::Result<void> check_swept(const CurveOptions& options) {
+  for (const std::string& sweep : options.sweeps) {
+    const std::string name = sweep.substr(0, sweep.find('='));
+    const auto value = options.contact.values.find(name);
+    const bool given = name == "free-amplitude" ? !options.tapping.numbers.free_amplitude.empty()
+                                                : value != options.contact.values.end() && !value->second.empty();
+    if (!given) continue;
+    return wrong_usage(fmt::format("--sweep {}: --{} is given, too, and has no effect; remove one", sweep, name));
+  }
+  return {};
+}
+
 // Sets each swept value to the sweep's first, so that the user need not give it as well.
 curves::ContactOptions with_swept_values(curves::ContactOptions contact, const std::vector<std::string>& sweeps) {
   for (const std::string& sweep : sweeps) {
@@ -242,6 +255,7 @@ void add_output_options(OptionList& command, CurveOptions& options) {
 }  // namespace
 
 core::Result<void> write_curve_command(const CurveOptions& options) {
+  if (const auto checked = check_swept(options); !checked) return checked;
   const auto format = output_format(options);
   if (!format) return tl::unexpected(format.error());
   if (const auto checked = check_out(options, *format); !checked) return checked;

@@ -142,8 +142,9 @@ void show(ServeOptions options, std::unique_ptr<ShownWall> wall, instrument::Sho
 
 core::Result<void> serve(const ServeOptions& options, const std::string& assets_dir) {
   std::error_code error;
-  if (!options.out.empty() && !std::filesystem::is_directory(options.out, error)) {
-    return core::wrong_usage(fmt::format("--out {}: there is no such folder; create it first", options.out));
+  if (!options.out.empty() && !std::filesystem::create_directories(options.out, error) &&
+      !std::filesystem::is_directory(options.out, error)) {
+    return core::wrong_usage(fmt::format("--out {}: cannot make this folder: {}", options.out, error.message()));
   }
   const auto served = Served::create(options, assets_dir);
   if (!served) return tl::unexpected(served.error());
@@ -207,7 +208,9 @@ void add_serve_command(OptionList& program, const CommandContext& context) {
           "your own sample instead of the material's: a glTF model with a node for the role surface, or an image; or "
           "gratings, as for touchafm scan")
       .type_name("FILE");
-  command.add_option("--out", options->out, "folder in which clients may save images and curves; default: nowhere")
+  command
+      .add_option("--out", options->out,
+                  "folder in which clients may save images and curves, made if there is none; default: nowhere")
       .type_name("DIR");
   command.add_flag("--once", options->once, "end when the first client has left");
   Option view = command.add_flag("--view", options->view,

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <system_error>
 
@@ -24,9 +26,12 @@ bool legal(std::uint32_t pixels, const std::optional<PixelRange>& range) {
 }  // namespace
 
 std::optional<glm::uvec2> parse_pixel_size(std::string_view text) {
-  const std::size_t cross = text.find('x');
-  if (cross == std::string_view::npos) return std::nullopt;
-  const auto width = whole_number(text.substr(0, cross)), height = whole_number(text.substr(cross + 1));
+  constexpr std::array<std::string_view, 3> kCrosses{"x", "X", "\u00d7"};
+  const auto crossed = std::find_if(kCrosses.begin(), kCrosses.end(),
+                                    [&](std::string_view each) { return text.find(each) != std::string_view::npos; });
+  if (crossed == kCrosses.end()) return std::nullopt;
+  const std::size_t at = text.find(*crossed);
+  const auto width = whole_number(text.substr(0, at)), height = whole_number(text.substr(at + crossed->size()));
   if (!width || !height) return std::nullopt;
   return glm::uvec2(*width, *height);
 }

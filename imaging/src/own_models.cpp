@@ -20,6 +20,7 @@
 #include "curves/curve_file.h"
 #include "curves/image_file.h"
 #include "curves/unread_kinds.h"
+#include "physics/quantity_text.h"
 #include "scene/gltf/not_gltf.h"
 #include "scene/gltf/noted_model.h"
 #include "scene/graph/pose.h"
@@ -35,6 +36,7 @@ using glm::dvec3;
 // Width to which a wider sample is scaled, because it cannot be shown in true size.
 constexpr double kWidestSampleM = 1e-6;
 constexpr double kFittedSampleM = 60e-9;
+constexpr double kNarrowestSampleM = 100e-12;
 
 core::Error missing(const std::string& file, std::string_view what) {
   return {core::ErrorCategory::BadInputFile,
@@ -93,14 +95,19 @@ core::Result<scene::Scene> load(const std::string& file) {
   return loaded;
 }
 
-// Area of the triangles as seen along each axis.
-dvec3 projected_areas(const scene::Mesh& mesh) {
-  dvec3 areas(0.0);
+// Area of the triangles as seen along each axis: of all, and of those that face along it less those that face back.
+struct ProjectedAreas {
+  dvec3 all{0.0}, net{0.0};
+};
+ProjectedAreas projected_areas(const scene::Mesh& mesh) {
+  ProjectedAreas areas;
   for (const scene::Primitive& primitive : mesh.primitives) {
     if (primitive.topology != scene::Topology::Triangles) continue;
     for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
       const auto corner = [&](std::size_t of) { return dvec3(primitive.vertices[primitive.indices[i + of]].position); };
-      areas += 0.5 * glm::abs(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+      const dvec3 area = 0.5 * glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+      areas.all += glm::abs(area);
+      areas.net += area;
     }
   }
   return areas;
@@ -109,9 +116,15 @@ dvec3 projected_areas(const scene::Mesh& mesh) {
 // Empty unless the surface is on edge under the tip, as that of an exporter whose up is +y: the tip would meet
 // nothing. A block ten times as high as wide does so, too.
 std::string doubt_of_normal(const scene::Mesh& mesh) {
-  constexpr double kLeastShare = 0.1;
-  const dvec3 areas = projected_areas(mesh);
+  constexpr double kLeastShare = 0.1, kMostly = 0.5;
+  const auto [areas, net] = projected_areas(mesh);
   if (areas.z >= kLeastShare * std::max(areas.x, areas.y)) return "";
+  // heights over x and y face up, and their slopes to both sides
+  const int faced = areas.y > areas.x ? 1 : 0;
+  if (std::abs(net.z) >= kMostly * areas.z && std::abs(net[faced]) < kMostly * areas[faced]) {
+    return "its relief is more than ten times as high as it is wide, so that the tip meets only walls: are its heights "
+           "in another unit than its sides?";
+  }
   return fmt::format(
       "its surface is on edge under the tip: +z of the node for the role surface is the outward normal, but the "
       "surface faces along its {}; turn this node, without the mesh, by {} degrees about {}",
@@ -133,12 +146,24 @@ core::Result<scene::Scene> load_model_of_sample(const std::string& file) {
   const scene::Bounds bounds = bounds_below(sample, 0);
   const double width = std::max(bounds.high.x - bounds.low.x, bounds.high.y - bounds.low.y);
   if (!std::isnormal(width)) return tl::unexpected(missing(file, "its surface has no extent along x and y"));
+  if (width < kNarrowestSampleM) {
+    return tl::unexpected(
+        missing(file, fmt::format("its surface is {} wide, less than an atom: one unit of a sample is one metre",
+                                  physics::format_quantity(physics::Length(width), physics::kLengthUnits, 3))));
+  }
   const double rounding = 1e-3 * width;
   const auto is_beside = [rounding](double low, double high) { return low > rounding || high < -rounding; };
   if (is_beside(bounds.low.x, bounds.high.x) || is_beside(bounds.low.y, bounds.high.y)) {
     return tl::unexpected(missing(
         file,
         "its node for the role surface, where the tip comes down, lies beside the sample: put it on the surface"));
+  }
+  if (bounds.low.z > width || bounds.high.z < -width) {
+    const double distance = std::min(std::abs(bounds.low.z), std::abs(bounds.high.z));
+    return tl::unexpected(
+        missing(file, fmt::format("its node for the role surface lies {} {} the sample: put it on the surface",
+                                  physics::format_quantity(physics::Length(distance), physics::kLengthUnits, 3),
+                                  bounds.low.z > 0.0 ? "below" : "above")));
   }
   if (const std::string doubt = doubt_of_normal(sample.meshes[0]); !doubt.empty()) {
     return tl::unexpected(missing(file, doubt));

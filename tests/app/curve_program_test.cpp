@@ -85,6 +85,10 @@ TEST(CurveProgram, RefusesModelsAndOptionsThatDoNotFit) {
   }
   expect_refusal("curve --model jkr --tip-radius 50nm", 2, "also needs --spring-constant");
   expect_refusal("curve --material mica --format svg --sweep tip-radius=1nm:9nm:3", 2, "csv or json");
+  expect_refusal("curve --material mica --tip-radius 5nm --sweep tip-radius=1nm:9nm:3", 2,
+                 "--sweep tip-radius=1nm:9nm:3: --tip-radius is given, too, and has no effect; remove one");
+  expect_refusal("curve --mode tapping --free-amplitude 9nm --sweep free-amplitude=1nm:9nm:3 --material mica", 2,
+                 "--free-amplitude is given, too");
   expect_refusal("curve --material mica --overlay x.tab", 2, "--overlay needs a plot");
 }
 

@@ -238,6 +238,8 @@ TEST_F(OptionsTest, AVolumeIsALevelWithItsUnit) {
 TEST(PixelSize, IsWidthAndHeight) {
   EXPECT_EQ(parse_pixel_size("1920x1080"), glm::uvec2(1920, 1080));
   EXPECT_EQ(parse_pixel_size("0x1"), glm::uvec2(0, 1));
+  EXPECT_EQ(parse_pixel_size("64X32"), glm::uvec2(64, 32));
+  EXPECT_EQ(parse_pixel_size("64\u00d732"), glm::uvec2(64, 32));
   for (const char* wrong : {"", "x", "1920", "1920x", "x1080", "1920x1080x2", "-1x5", "1920 x 1080", "1x99999999999"}) {
     EXPECT_EQ(parse_pixel_size(wrong), std::nullopt) << wrong;
   }

@@ -204,6 +204,22 @@ TEST_F(OwnModel, IsNoSampleOnEdge) {
   EXPECT_THAT(turned("[0, 0.7071067811865476, 0, 0.7071067811865476]"), HasSubstr("by 90 degrees about y"));
 }
 
+// A scan of it would be level at the end of the scanner.
+TEST_F(OwnModel, IsNoSampleFarAboveOrBelowTheTip) {
+  const auto own = [&](const std::string& place, const std::string& scale) {
+    const auto loaded =
+        load_own_models("", write(R"("nodes": [{"name": "surface", "children": [1]}, {"mesh": 0, "scale": )" + scale +
+                                  R"(, "translation": )" + place + "}]"));
+    return loaded ? "felt" : loaded.error().message;
+  };
+  EXPECT_EQ(own("[0, 0, 3e-8]", "[4e-8, 4e-8, 4e-8]"), "felt");
+  EXPECT_THAT(own("[0, 0, 1]", "[4e-8, 4e-8, 4e-8]"),
+              HasSubstr("role surface lies 1 m below the sample: put it on the"));
+  EXPECT_THAT(own("[0, 0, -5e-8]", "[4e-8, 4e-8, 4e-8]"), HasSubstr("role surface lies 50 nm above the sample"));
+  EXPECT_THAT(own("[0, 0, 0]", "[4e-13, 4e-13, 4e-13]"),
+              HasSubstr("its surface is 0.4 pm wide, less than an atom: one unit of a sample is one metre"));
+}
+
 TEST_F(OwnModel, BecomesASampleThatIsFeltAsItIsDrawn) {
   const auto own = load_own_models("", write(R"("nodes": [{"name": "surface", "children": [1]},
       {"mesh": 0, "translation": [-2e-8, -2e-8, 3e-9], "scale": [4e-8, 4e-8, 4e-8]}])"));

@@ -135,6 +135,13 @@ class Curves(Files):
             with self.assertRaisesRegex(ValueError, "approach: .* is neither True nor False"):
                 touchafm.Curve(z=z, force=z, approach=approach)
 
+    def test_are_refused_in_other_units_than_si(self):
+        z = np.linspace(1e-6, 0.0, 5)
+        approach = [True] * 3 + [False] * 2
+        for z_given, force in ((z * 1e9, z * 0), (range(5), z * 0), (z, [0, 0, 20.5, 0, 0])):
+            with self.assertRaisesRegex(ValueError, "point . at .* m with .* N is outside the range of a force microscope"):
+                touchafm.Curve(z=z_given, force=force, approach=approach)
+
     def test_are_made_of_arrays(self):
         z = np.linspace(1e-6, 0.0, 50, dtype=np.float32)
         curve = touchafm.Curve(z=np.concatenate([z, z[::-1]]), force=np.zeros(100), approach=np.arange(100) < 50,

@@ -194,9 +194,19 @@ class Serve(unittest.TestCase):
         self.assertEqual((done.stdout, done.stderr), ("64\n", ""))
         self.assertEqual(os.listdir(folder), [])
 
+    def test_makes_the_folder_of_its_results(self):
+        folder = os.path.join(self.folder.name, "new", "results")
+        with serve.start(out=folder) as afm:
+            afm.curve(points=20)
+            afm.save("curve.tab")
+        self.assertEqual(os.listdir(folder), ["curve.tab"])
+
     def test_says_why_a_server_does_not_start(self):
-        with self.assertRaisesRegex(serve.Refused, "no such folder"):
-            serve.start(out=os.path.join(self.folder.name, "none"))
+        blocked = os.path.join(self.folder.name, "file")
+        with open(blocked, "w", encoding="utf-8"):
+            pass
+        with self.assertRaisesRegex(serve.Refused, "cannot make this folder: Not a directory"):
+            serve.start(out=os.path.join(blocked, "none"))
         with self.assertRaisesRegex(serve.Refused, "--seed: \"-1\" is negative"):
             serve.start(seed=-1)
 

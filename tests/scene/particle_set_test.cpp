@@ -283,6 +283,10 @@ TEST(ParticleSet, IsNotLookedForAmongNone) {
               HasSubstr("there are no sets in " + folder.file("removed/particles") + "; install"));
   EXPECT_THAT(particle_file("silver-row", support::source("assets")).error().message,
               HasSubstr("choose blind-line, gold-row, "));
+  const auto with_ending = particle_file("gold-row.toml", support::source("assets"));
+  ASSERT_FALSE(with_ending);
+  EXPECT_EQ(with_ending.error().message, "there is no file gold-row.toml; the included set is called gold-row");
+  EXPECT_EQ(particle_file("my.toml", support::source("assets")), "my.toml") << "which load_particle_set() names";
 }
 
 // With another law, and without one of its numbers.

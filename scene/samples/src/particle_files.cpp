@@ -32,13 +32,19 @@ std::vector<std::string> particle_sets(const std::string& assets_dir) {
 }
 
 core::Result<std::string> particle_file(const std::string& name_or_path, const std::string& assets_dir) {
-  if (is_particle_path(name_or_path)) return name_or_path;
+  std::error_code ignored;
+  const std::filesystem::path path(name_or_path);
   const std::vector<std::string> known = particle_sets(assets_dir);
+  if (is_particle_path(name_or_path)) {
+    const bool is_included = std::find(known.begin(), known.end(), path.stem()) != known.end();
+    if (!is_included || path.has_parent_path() || std::filesystem::exists(path, ignored)) return name_or_path;
+    return core::wrong_usage(
+        fmt::format("there is no file {}; the included set is called {}", name_or_path, path.stem().string()));
+  }
   if (std::find(known.begin(), known.end(), name_or_path) != known.end()) {
     return fmt::format("{}/{}.toml", folder_of(assets_dir), name_or_path);
   }
-  std::error_code ignored;
-  if (std::filesystem::exists(name_or_path, ignored)) return name_or_path;
+  if (std::filesystem::exists(path, ignored)) return name_or_path;
   if (known.empty()) {
     return core::failure(core::ErrorCategory::Failed,
                          fmt::format("cannot look for the particles \"{}\": there are no sets in {}; install TouchAFM "
