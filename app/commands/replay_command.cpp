@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -176,10 +177,10 @@ core::Result<void> run_replay(const ReplayOptions& options, const std::string& a
   const auto session = servo::load_session(options.session);
   if (!session) return tl::unexpected(session.error());
   const servo::ReplayRange& range = options.range;
-  if (!(range.from_s >= 0.0 && range.from_s <= seconds(*session) && range.to_s >= range.from_s)) {
-    return core::failure(core::ErrorCategory::WrongUsage,
-                         fmt::format("--from {:g} s, --to {:g} s: the session has no such part; it lasts {:.3f} s",
-                                     range.from_s, range.to_s, seconds(*session)));
+  if (!(range.from_s >= 0.0 && range.from_s <= seconds(*session) && range.to_s > range.from_s)) {
+    const std::string to = std::isinf(range.to_s) ? "" : fmt::format(", --to {:g} s", range.to_s);
+    return core::wrong_usage(fmt::format("--from {:g} s{}: the session has no such part; it lasts {:.3f} s",
+                                         range.from_s, to, seconds(*session)));
   }
   if (!session->complete) core::log_line(servo::cut_text(*session, options.session));
   scene::ParticleSet set;
@@ -230,6 +231,7 @@ void add_replay_command(OptionList& program, const CommandContext& context) {
                   "write what the whole session sounds like: the tone of the force and a signal for each event, at its "
                   "own time")
       .writable_file()
+      .ends_in(".wav")
       .type_name("FILE.wav");
   add_sound_options(command, options->sound_options);
   command.add_flag("--json", options->json, "print the comparison as JSON, with the unit in each key");

@@ -268,11 +268,16 @@ Option& Option::written() {
   return *this;
 }
 
-Option& Option::picture_file(const char* ending) {
+Option& Option::ends_in(const char* ending) {
   option_->check([ending](const std::string& path) {
     if (!core::is_named_as_another(path, ending)) return std::string();
     return fmt::format("{}: name a file that ends in {}, which it will be", path, ending);
   });
+  return *this;
+}
+
+Option& Option::picture_file(const char* ending) {
+  ends_in(ending);
   option_->check(CLI::Validator([](std::string&) { return std::string(); }, "", kDraws));
   return writable_file();
 }

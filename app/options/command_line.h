@@ -50,6 +50,7 @@ class Option {
   // The value is a file or folder to be written, as implied by writable_file(). WrongUsage if it is a file that
   // another option reads.
   Option& written();
+  Option& ends_in(const char* ending);  // WrongUsage for the name of another kind of file, such as a.mp3 for ".wav"
   // As writable_file(), for a picture of the format with this ending. Also WrongUsage if its name is that of another
   // kind of file, or the file is a measurement, which the picture would replace.
   Option& picture_file(const char* ending);

@@ -86,7 +86,10 @@ constexpr std::array kSignatures{
     Signature{"fileformat = bcr"sv, 0, {"a file of Image Metrology (.bcr)", FileRole::LabFile}},
     Signature{"# File Format = ASCII"sv, 0, {"a text file of SPIP", FileRole::LabFile}},
     Signature{"MATLAB 5.0"sv, 0, {"a file of MATLAB", FileRole::LabFile}},
-    Signature{"\x93NUMPY"sv, 0, {"an array of NumPy, without units", FileRole::LabFile}}};
+    Signature{"\x93NUMPY"sv, 0, {"an array of NumPy, without units", FileRole::LabFile}},
+    Signature{"ONTMATRX"sv, 0, {"a file of Omicron (.mtrx)", FileRole::LabFile}},
+    Signature{"Gwyddion Simple Field 1.0\r"sv, 0, {"a .gsf that was copied as a text", FileRole::LabFile}},
+    Signature{"AFMS"sv, 0, {"a session of TouchAFM (.afms)", FileRole::LabFile}}};
 
 constexpr bool all_within_the_beginning() {
   return std::all_of(kSignatures.begin(), kSignatures.end(),

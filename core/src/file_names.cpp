@@ -9,10 +9,10 @@ namespace afm::core {
 
 namespace {
 
-constexpr std::array<std::string_view, 28> kKnownEndings{".svg",  ".png",  ".jpg", ".jpeg", ".gif",  ".bmp",  ".tif",
-                                                         ".tiff", ".webp", ".pdf", ".eps",  ".ps",   ".html", ".htm",
-                                                         ".doc",  ".docx", ".odt", ".xls",  ".xlsx", ".ods",  ".mat",
-                                                         ".npy",  ".npz",  ".zip", ".gz",   ".wav",  ".mp4",  ".webm"};
+constexpr std::array<std::string_view, 32> kKnownEndings{
+    ".mp3",  ".ogg",  ".flac", ".m4a", ".svg", ".png",  ".jpg", ".jpeg", ".gif",  ".bmp", ".tif",
+    ".tiff", ".webp", ".pdf",  ".eps", ".ps",  ".html", ".htm", ".doc",  ".docx", ".odt", ".xls",
+    ".xlsx", ".ods",  ".mat",  ".npy", ".npz", ".zip",  ".gz",  ".wav",  ".mp4",  ".webm"};
 
 }  // namespace
 

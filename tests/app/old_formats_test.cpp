@@ -25,6 +25,13 @@ TEST(OldFormats, OfASessionReplaysBitForBit) {
   EXPECT_THAT(done.out, HasSubstr("is identical, bit for bit"));
 }
 
+// an empty part would be identical
+TEST(Replay, RefusesAPartWithoutATick) {
+  const std::string session = "replay " + kFiles + "session-gold.afms";
+  expect_refusal(run_touchafm(session + " --from 2 --to 2"), 2, "--from 2 s, --to 2 s: the session has no such part");
+  expect_refusal(run_touchafm(session + " --from -1"), 2, "--from -1 s: the session has no such part");
+}
+
 TEST(OldFormats, OfASessionIsDrawn) {
   const support::ScratchFolder folder;
   const auto done =

@@ -16,6 +16,9 @@ std::string name_of(std::string_view bytes) {
 TEST(FileKinds, AreRecognisedByTheirBeginning) {
   EXPECT_EQ(name_of("\x1F\x8B\x08"), "a gzip file");
   EXPECT_EQ(name_of("WSxM file copyright"), "a file of WSxM");
+  EXPECT_EQ(name_of("AFMS\x16"), "a session of TouchAFM (.afms)");
+  EXPECT_EQ(name_of("Gwyddion Simple Field 1.0\r\nXRes = 2\r\n"), "a .gsf that was copied as a text");
+  EXPECT_EQ(name_of("ONTMATRX0101"), "a file of Omicron (.mtrx)");
   EXPECT_EQ(name_of(std::string(257, '\0') + "ustar"), "a tar archive");
   EXPECT_EQ(name_of("\xEF\xBB\xBF\n <!doctype HTML>"), "an HTML page, probably in place of a download");
   EXPECT_EQ(name_of("# two\n# lines\nv 0 0 0\n"), "an OBJ file");

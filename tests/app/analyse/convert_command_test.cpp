@@ -64,6 +64,7 @@ TEST(WrittenFile, HasNoNameOfAnotherKind) {
     expect_refusal(run_touchafm("curve --material gold --out " + folder.file(name)), 2, "name one that ends in .csv");
   }
   for (const char* name : {"a.csv", "a.tsv"}) expect_refusal(run_touchafm(fit + folder.file(name)), 2, "looks like");
+  expect_refusal(run_touchafm("replay x.afms --sound " + folder.file("a.mp3")), 2, "ends in .wav");
   expect_refusal(run_touchafm("render --journey 3 --size 64x64 --out " + folder.file("a.jpg")), 2, "ends in .png");
   EXPECT_EQ(run_touchafm(fit + folder.file("A.SVG")).exit_code, 0);
   EXPECT_TRUE(std::filesystem::is_regular_file(folder.file("A.SVG")));
