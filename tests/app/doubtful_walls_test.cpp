@@ -58,6 +58,58 @@ TEST(DoubtfulWalls, AreRefusedOrNotedByTheWallCommand) {
   }
 }
 
+// Notes on a wall of 3 m x 2.2 m and other tables, with a head in front of x = 0.
+std::string notes_on(const std::string& tables) {
+  const support::ScratchFolder folder;
+  const std::string file =
+      folder.write("wall.toml", tables + "[[viewer]]\nname = \"v\"\nipd = \"63 mm\"\nsweet_spot = [0.0, 1.65, 2.5]\n");
+  const ProgramResult done = support::run_program(support::touchafm() + " wall " + file);
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  return done.out;
+}
+
+std::string screen(const std::string& name, const std::string& left, const std::string& right,
+                   const std::string& low = "0.4", const std::string& high = "2.6") {
+  const auto corner = [](const std::string& x, const std::string& y) { return " = [" + x + ", " + y + ", 0]\n"; };
+  return "[[screen]]\nname = \"" + name + "\"\nlower_left" + corner(left, low) + "lower_right" + corner(right, low) +
+         "upper_left" + corner(left, high);
+}
+
+std::string output(const std::string& mode, int x, const std::string& more) {
+  return "[[output]]\nname = \"at " + std::to_string(x) + "\"\nscreen = \"big\"\nmode = \"" + mode + "\"\nrect = [" +
+         std::to_string(x) + ", 0, 818, 600]\n" + more;
+}
+
+// Of a pair with one swapped picture both eyes see the same one: no depth at all.
+TEST(DoubtfulWalls, KnowAPairThatShowsOneEyeTwice) {
+  const std::string big = screen("big", "-1.5", "1.5");
+  const std::string eye = "eye = \"left\"\n", other = "eye = \"right\"\n", swap = "swap = true\n";
+  EXPECT_THAT(
+      notes_on(big + output("dual", 0, eye) + output("dual", 818, other + swap)),
+      HasSubstr("note: every output of screen \"big\" shows the left eye: set swap = true for both outputs of a "
+                "pair, or for neither"));
+  EXPECT_THAT(notes_on(big + output("left", 0, swap) + output("right", 818, "")), HasSubstr("shows the right eye"));
+  for (const std::string& pair : {output("dual", 0, eye) + output("dual", 818, other),
+                                  output("dual", 0, eye + swap) + output("dual", 818, other + swap),
+                                  output("left", 0, swap) + output("right", 818, swap)}) {
+    EXPECT_THAT(notes_on(big + pair), HasSubstr("the wall file is valid")) << pair;
+  }
+}
+
+TEST(DoubtfulWalls, KnowAScreenWithinAnotherAndAGapInTheMiddle) {
+  EXPECT_THAT(notes_on(screen("big", "-1.5", "1.5") + screen("inset", "-0.3", "0.3", "1.0", "1.4")),
+              HasSubstr("note: screen \"inset\" lies within screen \"big\", and both show this part of the scene"));
+  EXPECT_THAT(
+      notes_on(screen("a", "-3.0", "-0.5") + screen("b", "0.5", "3.0")),
+      AllOf(HasSubstr("note: screens \"a\" and \"b\" count as one, and its middle, where the tip is, lies in the "
+                      "gap of 1000 mm between them"),
+            HasSubstr("move them together")));
+  EXPECT_THAT(notes_on(screen("a", "-3.0", "-0.02") + screen("b", "0.02", "3.0")), HasSubstr("the wall file is valid"))
+      << "frames of two monitors";
+  EXPECT_THAT(notes_on(screen("a", "-3.0", "-1.0") + screen("b", "-1.0", "1.0") + screen("c", "1.5", "3.0")),
+              HasSubstr("the wall file is valid"));
+}
+
 TEST(DoubtfulWalls, AreRefusedOrLoggedByRender) {
   const support::ScratchFolder folder;
   for (const Case& one : cases()) {
