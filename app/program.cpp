@@ -14,6 +14,7 @@
 #include "app/options/menu_notice.h"
 #include "app/options/nearest_word.h"
 #include "app/options/standard_output.h"
+#include "app/options/wrapped_help.h"
 #include "core/exit_code.h"
 #include "core/own_folder.h"
 #include "core/run_main.h"
@@ -69,7 +70,8 @@ int run_program(int count, char** arguments, const char* commit) {
   const auto answer = command_line.parse(count, arguments);
   if (!answer) return fail(core::ExitCode::WrongUsage, answer.error().message);
   if (!answer->empty()) {
-    std::fputs(answer->c_str(), stdout);
+    const std::size_t columns = terminal_columns();
+    std::fputs((columns > 0 ? wrapped_help(*answer, columns) : *answer).c_str(), stdout);
   } else if (const auto done = command_line.run(); !done) {
     tell_the_desktop(done.error().message);
     return fail(core::exit_code(done.error().category), done.error().message);

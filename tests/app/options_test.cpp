@@ -14,6 +14,7 @@
 #include "app/options/quantity_option.h"
 #include "app/options/sound_options.h"
 #include "app/options/uncertainty_option.h"
+#include "app/options/wrapped_help.h"
 #include "curves/uncertainty_text.h"
 #include "exhibit/sound/synthesizer.h"
 
@@ -233,6 +234,30 @@ TEST_F(OptionsTest, AVolumeIsALevelWithItsUnit) {
     EXPECT_EQ(answer.error().category, core::ErrorCategory::WrongUsage);
     EXPECT_THAT(answer.error().message, AllOf(HasSubstr(text), HasSubstr("-60dB to 0dB with its unit")));
   }
+}
+
+TEST(WrappedHelp, BreaksBetweenWordsBelowTheDescription) {
+  const std::string help =
+      "what it does\n"
+      "\n"
+      "  --at TIME   time of the picture, in seconds; default: the start\n"
+      "  --tip-radius LENGTH from 100pm to 1mm\n"
+      "              radius of \u00b5m and more\n"
+      "https://example.org/a/word/longer/than/the/line\n";
+  EXPECT_EQ(wrapped_help(help, 200), help);
+  EXPECT_EQ(wrapped_help(help, 40),
+            "what it does\n"
+            "\n"
+            "  --at TIME   time of the picture, in\n"
+            "              seconds; default: the\n"
+            "              start\n"
+            "  --tip-radius LENGTH from 100pm to 1mm\n"
+            "              radius of \u00b5m and more\n"
+            "https://example.org/a/word/longer/than/the/line\n");
+  EXPECT_EQ(wrapped_help("  --at TIME   time of the picture\n", 20),
+            "  --at TIME   time\n"
+            "      of the picture\n");
+  EXPECT_EQ(wrapped_help("a b", 1), "a\nb");
 }
 
 TEST(PixelSize, IsWidthAndHeight) {
