@@ -161,7 +161,7 @@ core::Result<Converted> converted_image(const std::string& file, const std::stri
   return result;
 }
 
-// Why a file cannot be converted that is neither curve nor image.
+// Refusal of a file that is neither curve nor image.
 core::Error refusal_of_other(const std::string& file) {
   const auto beginning = core::read_beginning(file, core::kFileKindBytes);
   if (!beginning) return beginning.error();

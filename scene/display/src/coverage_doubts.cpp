@@ -57,7 +57,7 @@ Seen seen_on(const std::vector<Output>& outputs, std::size_t screen) {
   return seen;
 }
 
-// Whether some of several outputs of a screen are swapped, and some not.
+// True if some of several outputs of a screen are swapped, and some not.
 bool are_swapped_in_part(const std::vector<Output>& outputs, std::size_t screen) {
   const auto has = [&](EyeOrder order) {
     return std::any_of(outputs.begin(), outputs.end(),
