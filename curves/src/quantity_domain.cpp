@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "curves/quantity_domain.h"
 
-#include <algorithm>
+#include <string>
 
 namespace afm::curves {
-namespace {
-
-// Text in one word, as typed: "5mm/s".
-std::string in_one_word(double si, const QuantityDomain& domain) {
-  std::string text = physics::format_si(si, domain.units, 4);
-  std::erase(text, ' ');
-  return text;
-}
-
-}  // namespace
 
 std::string legal_values(const QuantityDomain& domain) {
-  if (domain.range) return in_one_word(domain.range->least, domain) + " to " + in_one_word(domain.range->most, domain);
-  return physics::list_units(domain.units);
+  if (!domain.range) return physics::list_units(domain.units);
+  auto [least, most] = physics::range_ends(domain.range->least, domain.range->most, domain.units, 4);
+  // in one word, as typed: "5mm/s"
+  std::erase(least, ' ');
+  std::erase(most, ' ');
+  return least + " to " + most;
 }
 
 std::string refusal(double si, std::string_view text, const QuantityDomain& domain) {

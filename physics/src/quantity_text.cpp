@@ -152,9 +152,10 @@ std::variant<double, std::string> parse_si(std::string_view text, std::string_vi
   return in_si(number, unit->per_si) + unit->zero_si;
 }
 
-std::string format_si(double si, std::span<const Unit> units, int digits) {
-  // the largest unit in which the rounded number is at least 1, or the smallest; that of the SI for zero
-  const int precision = std::clamp(digits, 1, 17);
+namespace {
+
+// The largest unit in which the rounded number is at least 1, or the smallest; that of the SI for zero.
+const Unit& shown_unit(double si, std::span<const Unit> units, int precision) {
   const double rounds_to_one = 1.0 - 0.5 * std::pow(10.0, -precision);
   const Unit* chosen = nullptr;
   for (const Unit& unit : units) {
@@ -163,14 +164,34 @@ std::string format_si(double si, std::span<const Unit> units, int digits) {
         si != 0.0 ? chosen != nullptr && std::abs(si) * chosen->per_si < rounds_to_one : unit.per_si == 1.0;
     if (chosen == nullptr || closer) chosen = &unit;
   }
+  return *chosen;
+}
+
+std::string text_in(double si, const Unit& unit, int precision) {
   std::array<char, 64> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si * chosen->per_si,
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), si * unit.per_si,
                                     std::chars_format::general, precision);
-  return std::string(buffer.data(), result.ptr) + (chosen->symbol.empty() ? "" : " ") + std::string(chosen->symbol);
+  return std::string(buffer.data(), result.ptr) + (unit.symbol.empty() ? "" : " ") + std::string(unit.symbol);
+}
+
+}  // namespace
+
+std::string format_si(double si, std::span<const Unit> units, int digits) {
+  const int precision = std::clamp(digits, 1, 17);
+  return text_in(si, shown_unit(si, units, precision), precision);
+}
+
+std::array<std::string, 2> range_ends(double smallest, double largest, std::span<const Unit> units, int digits) {
+  const int precision = std::clamp(digits, 1, 17);
+  const auto end = [&](double si, double other) {
+    return text_in(si, shown_unit(si != 0.0 ? si : other, units, precision), precision);
+  };
+  return {end(smallest, largest), end(largest, smallest)};
 }
 
 std::string range_text(double smallest, double largest, const Units& units) {
-  return format_si(smallest, units.units) + " to " + format_si(largest, units.units);
+  const auto [least, most] = range_ends(smallest, largest, units.units);
+  return least + " to " + most;
 }
 
 }  // namespace afm::physics

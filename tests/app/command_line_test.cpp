@@ -91,6 +91,7 @@ TEST(CommandLine, RefusesSettingsOfAScanByListingWhatIsLegal) {
   expect_refusal(run_touchafm("scan --material mica --json --tip spoon"), 2, "pyramid-3");
   expect_refusal(run_touchafm("scan --material mica --out x.tif"), 2, ".gwy or .gsf");
   expect_refusal(run_touchafm("scan --material mica --out /nowhere/x.gwy"), 2, "there is no folder /nowhere; make it");
+  expect_refusal(run_touchafm("scan --integral-gain 5000000/s"), 2, "5000000/s is outside 0/ms to 1000/ms");
 }
 
 TEST(CommandLine, RefusesAWallWithCollinearCorners) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "curves/live_parameters.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include "curves/sample_model.h"
 #include "scene/samples/material_library.h"
 #include "support/places.h"
+#include "support/samples/tapped_sample.h"
 
 namespace afm::curves {
 namespace live_parameters_test {
@@ -95,6 +97,23 @@ TEST_F(LiveParametersTest, AStepBeyondWhatIsPhysicalChangesNothingAndSaysWhy) {
   EXPECT_FALSE(parameters_.refusal().empty());
   EXPECT_TRUE(parameters_.step(Row::TipRadius, -1));
   EXPECT_TRUE(parameters_.refusal().empty());
+}
+
+// A lever driven above its resonance taps a soft sample; a stiffer one enlarges its swing.
+TEST_F(LiveParametersTest, AStepToASampleThatEnlargesTheSwingChangesNothingAndSaysWhy) {
+  TappedHand hand = test::tapped_hand();
+  hand.choice.numbers.drive = "306kHz";
+  hand.values["reduced-modulus"] = "30MPa";
+  LiveParameters parameters(make_sample_model(tapped_setup(mica_.setup.material, hand).value()).value());
+  int steps = 0;
+  while (parameters.step(Row::ReducedModulus, 1)) ASSERT_LT(++steps, 60);
+  EXPECT_GT(steps, 0);
+  EXPECT_THAT(parameters.refusal(), ::testing::HasSubstr("this sample enlarges the swing from 20 nm to at least "));
+  const double modulus = parameters.model().parameters.contact.reduced_modulus.si;
+  EXPECT_NEAR(modulus, 3e7 * std::exp2(0.25 * steps), 1e-9 * modulus);
+  EXPECT_EQ(parameters.state().steps[static_cast<std::size_t>(Row::ReducedModulus)], steps);
+  EXPECT_TRUE(parameters.step(Row::ReducedModulus, -1));
+  EXPECT_TRUE(parameters.refusal().empty());
 }
 
 TEST_F(LiveParametersTest, ResetIsWhatWasLoaded) {

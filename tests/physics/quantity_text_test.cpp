@@ -54,6 +54,14 @@ TEST(QuantityText, ReadsAndShowsNumbersWithoutAUnit) {
   EXPECT_EQ(format_quantity(Time(2e-3), kTimeUnits), "2 ms");
 }
 
+TEST(QuantityText, ShowsAnEndOfZeroInTheUnitOfTheOtherEnd) {
+  EXPECT_EQ(range_text(0.0, 1e-7, kLengthUnits), "0 nm to 100 nm");
+  EXPECT_EQ(range_text(-1e-6, 0.0, kLengthUnits), "-1 um to 0 um");
+  EXPECT_EQ(range_text(0.0, 0.0, kLengthUnits), "0 m to 0 m");
+  EXPECT_EQ(range_text(1e-9, 1e-3, kLengthUnits), "1 nm to 1 mm");
+  EXPECT_EQ(range_text(0.0, 10.0, kPlainNumber), "0 to 10");
+}
+
 TEST(QuantityText, ReadsTheUnitsOfOtherPrograms) {
   EXPECT_DOUBLE_EQ(parsed("10pN/nm", kStiffnessUnits), 0.01);
   EXPECT_DOUBLE_EQ(parsed("3 \u00c5", kLengthUnits), 3e-10);

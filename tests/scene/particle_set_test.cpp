@@ -351,7 +351,7 @@ TEST(ParticleSet, RefusesWhatCannotBeInOneLineWithTheReason) {
   EXPECT_THAT(refusal(changed("source = \"polycrystalline gold, bulk\", ", "")), HasSubstr("source"));
   EXPECT_THAT(refusal(""), HasSubstr("title: is missing"));
   EXPECT_THAT(refusal(changed("x = \"30 nm\"", "x = \"400 nm\"")),
-              HasSubstr("target.x: the target is outside the rectangle of the particles, x from 0 m to 330 nm and y "
+              HasSubstr("target.x: the target is outside the rectangle of the particles, x from 0 nm to 330 nm and y "
                         "from -160 nm to 170 nm"));
   EXPECT_THAT(refusal(changed("x = \"30 nm\"\ny = \"0 nm\"", "x = \"30 nm\"\ny = \"500 nm\"")),
               HasSubstr("target.y: the target is outside"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -74,6 +75,10 @@ inline constexpr int kUsualDigits = 5;
 
 // Implementation of format_quantity.
 std::string format_si(double si, std::span<const Unit> units, int digits = kUsualDigits);
+
+// Both ends of a range in SI as text. An end of zero is in the unit of the other end: "0 nm" and "100 nm".
+std::array<std::string, 2> range_ends(double smallest, double largest, std::span<const Unit> units,
+                                      int digits = kUsualDigits);
 
 // Range in SI as text: "100 pm to 1 mm".
 std::string range_text(double smallest, double largest, const Units& units);

@@ -22,8 +22,9 @@ using physics::kLengthUnits;
 using physics::Length;
 
 constexpr double kLeastShare = 0.5;  // smallest ratio of a particle to the tip, and to the largest particle
+constexpr int kDigits = 4;           // significant digits of a length in a message
 
-std::string length_text(Length length) { return format_quantity(length, kLengthUnits, 4); }
+std::string length_text(Length length) { return format_quantity(length, kLengthUnits, kDigits); }
 
 // Refuses the first species that is too thin for the tip or for another one, or too narrow for another island.
 void check_sizes(const ParticleSet& set, const SetTables& tables) {
@@ -118,11 +119,15 @@ void check_within_field(const TomlTable& table, const ParticleSet& set, const ph
   const ParticleField field = field_of(set);
   if (field.holds(place)) return;
   const bool across = place.x < field.least.x || place.x > field.most.x;
+  const auto ends = [](Length least, Length most) {
+    return physics::range_ends(least.si, most.si, kLengthUnits.units, kDigits);
+  };
+  const auto [left, right] = ends(field.least.x, field.most.x);
+  const auto [below, above] = ends(field.least.y, field.most.y);
   table.refuse(across ? "x" : "y",
                fmt::format("{} is outside the rectangle of the particles, x from {} to {} and y from {} to {}, over "
                            "which the hand reaches: a particle with pinned = true beyond it makes that larger",
-                           what, length_text(field.least.x), length_text(field.most.x), length_text(field.least.y),
-                           length_text(field.most.y)));
+                           what, left, right, below, above));
 }
 
 }  // namespace afm::scene

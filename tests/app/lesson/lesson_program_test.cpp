@@ -105,6 +105,27 @@ TEST(LessonProgram, AsksSimulatedStudentsForBothStatesOfALeverThatTaps) {
   EXPECT_GE(right, trials * 3 / 4);
 }
 
+// A drive above the resonance, with which the stiff sample of this lesson enlarges the swing; in a window too.
+TEST(LessonProgram, RefusesADriveUnderWhichASampleCannotBeFelt) {
+  const support::ScratchFolder folder;
+  const std::string out = " --participant sim:1 --out " + folder.file("study");
+  std::string text = core::read_file(kLessons + "two-states.toml").value();
+  const std::string before = "resonance = \"300 kHz\"";
+  ASSERT_NE(text.find(before), std::string::npos);
+  text.replace(text.find(before), before.size(), before + "\ndrive = \"318 kHz\"");
+  const std::string driven = folder.write("driven.toml", text);
+  const std::string why =
+      "mica cannot be felt: with the drive 6 % above the resonance this sample enlarges the swing from 20 nm to at "
+      "least";
+  const auto alone = lesson(driven + out);
+  EXPECT_EQ(alone.exit_code, 3);
+  EXPECT_THAT(alone.err, HasSubstr("lesson file " + driven + ": " + why));
+  const auto in_a_window = lesson(driven);
+  EXPECT_EQ(in_a_window.exit_code, 2);
+  EXPECT_THAT(in_a_window.err, HasSubstr(why));
+  EXPECT_FALSE(fs::exists(folder.file("study"))) << "nothing of a study that cannot begin";
+}
+
 TEST(LessonProgram, SaysWhatIsWrongInOneLine) {
   const support::ScratchFolder folder;
   const std::string out = " --out " + folder.file("study");
