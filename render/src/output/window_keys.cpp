@@ -57,6 +57,9 @@ Key at_place(int code) {
 // True for the codes of keys whose printed sign depends on the layout.
 constexpr bool is_printing(int code) { return code >= GLFW_KEY_APOSTROPHE && code <= GLFW_KEY_WORLD_2; }
 
+// Letters of the two keys of a Turkish layout that are labelled I.
+constexpr char32_t kDotlessI = U'\u0131', kDottedI = U'\u0130';
+
 // Key named by a sign.
 Key named(char32_t sign) {
   const auto in_run = [sign](char32_t first, Key key) {
@@ -65,12 +68,14 @@ Key named(char32_t sign) {
   if (sign >= U'a' && sign <= U'z') return in_run(U'a', Key::A);
   if (sign >= U'A' && sign <= U'Z') return in_run(U'A', Key::A);
   if (sign >= U'0' && sign <= U'9') return in_run(U'0', Key::Digit0);
+  if (sign == kDotlessI || sign == kDottedI) return Key::I;
   if (sign == U'+') return Key::Plus;
   return sign == U'-' ? Key::Minus : Key::Other;
 }
 
 // Same for a label: a key labelled = has + as its second sign.
 Key labelled(std::string_view label) {
+  if (label == "\u0131" || label == "\u0130") return Key::I;
   if (label.size() != 1) return Key::Other;
   return label == "=" ? Key::Plus : named(static_cast<unsigned char>(label.front()));
 }
