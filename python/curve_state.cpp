@@ -90,9 +90,6 @@ std::span<const double> numbers_in(const GivenArray& array) {
 
 }  // namespace
 
-// The limits of a file's curve.
-constexpr double kHighestM = 1.0, kStrongestN = 1.0;
-
 std::vector<CurvePoint> points_from(std::span<const double> z_m, std::span<const double> force_n,
                                     std::span<const double> approach) {
   std::vector<CurvePoint> points;
@@ -100,10 +97,6 @@ std::vector<CurvePoint> points_from(std::span<const double> z_m, std::span<const
   for (std::size_t i = 0; i < z_m.size(); ++i) {
     if (!std::isfinite(z_m[i]) || !std::isfinite(force_n[i]) || !std::isfinite(approach[i])) {
       refuse(fmt::format("point {} is not finite", i));
-    }
-    if (std::abs(z_m[i]) > kHighestM || std::abs(force_n[i]) > kStrongestN) {
-      refuse(fmt::format("point {} at {} m with {} N is outside the range of a force microscope; is it in SI?", i,
-                         z_m[i], force_n[i]));
     }
     if (approach[i] != 0.0 && approach[i] != 1.0) {
       refuse(fmt::format("approach: {} of point {} is neither True nor False", approach[i], i));
@@ -113,6 +106,9 @@ std::vector<CurvePoint> points_from(std::span<const double> z_m, std::span<const
       refuse(fmt::format("point {} is of the approach and after the retract", i));
     }
     points.push_back({physics::Length(z_m[i]), physics::Force(force_n[i]), branch});
+    if (const std::string doubt = curves::doubt_of(points.back()); !doubt.empty()) {
+      refuse(fmt::format("point {} {}", i, doubt));
+    }
   }
   return points;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "app/commands/view_command.h"
 #include "app/lesson/view_lesson.h"
@@ -79,6 +80,22 @@ core::Error of_lesson_file(const LessonOptions& options, const core::Error& erro
   return {core::ErrorCategory::BadInputFile, fmt::format("lesson file {}: {}", options.lesson, error.message)};
 }
 
+// Samples of a lesson as models, and as JSON for its data set.
+struct LessonSamples {
+  std::vector<curves::SampleModel> models;
+  std::string described;
+};
+
+core::Result<LessonSamples> samples_of(const LessonOptions& options, const exhibit::Lesson& lesson) {
+  const auto library = load_library(options.view.files);
+  if (!library) return tl::unexpected(library.error());
+  auto models = exhibit::lesson_samples(lesson, *library);
+  if (!models) return tl::unexpected(of_lesson_file(options, models.error()));
+  auto described = exhibit::samples_json(lesson, *library);
+  if (!described) return tl::unexpected(of_lesson_file(options, described.error()));
+  return LessonSamples{std::move(*models), std::move(*described)};
+}
+
 // Seed for a participant's lesson, always the same for the same code. Fits into 53 bits, the integers that every JSON
 // reader holds exactly.
 std::uint64_t seed_of(const std::string& code, const exhibit::Lesson& lesson) {
@@ -94,12 +111,8 @@ core::Result<void> run_simulated(const LessonOptions& options) {
   if (!lesson) return tl::unexpected(lesson.error());
   const auto phrases = exhibit::load_phrases(options.view.files);
   if (!phrases) return tl::unexpected(phrases.error());
-  const auto library = load_library(options.view.files);
-  if (!library) return tl::unexpected(library.error());
-  const auto samples = exhibit::lesson_samples(*lesson, *library);
-  if (!samples) return tl::unexpected(of_lesson_file(options, samples.error()));
-  const auto described = exhibit::samples_json(*lesson, *library);
-  if (!described) return tl::unexpected(of_lesson_file(options, described.error()));
+  const auto samples = samples_of(options, *lesson);
+  if (!samples) return tl::unexpected(samples.error());
   const std::string code = participant->code();
   const std::uint64_t seed = seed_of(code, *lesson);
   auto data = exhibit::DataSet::create(*lesson, {.folder = options.out,
@@ -108,13 +121,13 @@ core::Result<void> run_simulated(const LessonOptions& options) {
                                                  .wall = "none",
                                                  .seed = seed,
                                                  .observer = participant->json(),
-                                                 .samples = *described,
+                                                 .samples = samples->described,
                                                  .day = std::nullopt});
   if (!data) return tl::unexpected(data.error());
   exhibit::LessonRun run(
-      *lesson, *samples, phrases->wall, {.seed = seed, .order = data->order()},
+      *lesson, samples->models, phrases->wall, {.seed = seed, .order = data->order()},
       [&](const exhibit::TrialRow& row) { return data->add(row); }, 0.0);
-  exhibit::SimulatedStudent student(*participant, *lesson, *samples);
+  exhibit::SimulatedStudent student(*participant, *lesson, samples->models);
   if (auto taken = student.take(run); !taken) return taken;
   if (auto finished = data->finish(run.end().value_or(exhibit::LessonEnd::Stopped)); !finished) return finished;
   core::log_line(fmt::format("{}: {} of {}", data->participant_folder(), lesson->id, code));
@@ -136,10 +149,8 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
   if (heard && !options.view.settings.sound.sound) {
     return core::wrong_usage(options.lesson + ": a condition of this lesson is sound; add --sound");
   }
-  const auto library = load_library(options.view.files);
-  if (!library) return tl::unexpected(library.error());
-  const auto described = exhibit::samples_json(*lesson, *library);
-  if (!described) return tl::unexpected(of_lesson_file(options, described.error()));
+  const auto samples = samples_of(options, *lesson);
+  if (!samples) return tl::unexpected(samples.error());
   ViewOptions view = options.view;
   view.files.shown = lesson->materials;
   view.files.particles = lesson->particles;
@@ -159,7 +170,7 @@ core::Result<void> run_live(const LessonOptions& options, const std::string& pro
                                        .wall = view.files.wall.empty() ? "powerwall" : view.files.wall,
                                        .seed = seed_of(code, guided.lesson),
                                        .age_band = options.age_band,
-                                       .samples = *described,
+                                       .samples = samples->described,
                                        .order = *order,
                                        .day = days.count()};
   const std::string participant = options.out + "/sub-" + code;

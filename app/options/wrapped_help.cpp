@@ -6,15 +6,11 @@
 
 #include <algorithm>
 
+#include "core/printable.h"
+
 namespace afm::app {
 
 namespace {
-
-// Characters of a text in UTF-8.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
 
 // Column of the description behind two blanks or more; otherwise that of the first word.
 std::size_t description_at(std::string_view line) {
@@ -25,17 +21,17 @@ std::size_t description_at(std::string_view line) {
 
 void add_wrapped(std::string_view line, std::size_t columns, std::string& text) {
   constexpr std::size_t kStep = 4;
-  if (width_of(line) <= columns) {
+  if (core::count_characters(line) <= columns) {
     text.append(line);
     return;
   }
   const std::size_t word = std::min(line.find_first_not_of(' '), line.size()), described = description_at(line);
   const std::size_t indent = std::min(described <= columns / 2 ? described : word + kStep, columns / 2);
   text.append(line.substr(0, described));
-  std::size_t used = width_of(line.substr(0, described));
+  std::size_t used = core::count_characters(line.substr(0, described));
   bool begins = true;  // no blank before the first word of a line
   for (line.remove_prefix(described); !line.empty();) {
-    const std::size_t end = std::min(line.find(' '), line.size()), width = width_of(line.substr(0, end));
+    const std::size_t end = std::min(line.find(' '), line.size()), width = core::count_characters(line.substr(0, end));
     if (used > indent && used + (begins ? 0 : 1) + width > columns) {
       text.erase(text.find_last_not_of(' ') + 1);
       text.append("\n").append(indent, ' ');

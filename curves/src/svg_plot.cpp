@@ -267,9 +267,7 @@ void draw_line(std::string& out, const SvgLine& line, const Frame& frame) {
 // neither does.
 SvgMark::Side side_within(const SvgMark& mark, double x, const Frame& frame) {
   using Side = SvgMark::Side;
-  const auto letters = std::count_if(mark.text.begin(), mark.text.end(),
-                                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
-  const double reach = kMarkGap + kCharacter * static_cast<double>(letters);
+  const double reach = kMarkGap + kCharacter * static_cast<double>(core::count_characters(mark.text));
   const bool fits_left = x - reach >= frame.left(), fits_right = x + reach <= frame.right();
   if (mark.side == Side::Left && !fits_left && fits_right) return Side::Right;
   if (mark.side == Side::Right && !fits_right && fits_left) return Side::Left;

@@ -40,9 +40,11 @@ FieldUse of_period(const SyntheticSetup& setup) { return required_if(setup.wave_
 
 // Option that makes a number of this use meaningful.
 std::string remedy(const SyntheticField& field, const SyntheticSetup& setup) {
-  if (field.use == of_memory) return "it needs --noise; give it, too, or leave this out";
-  if (field.use == of_bits) return "it needs --sensitivity; give it, too, or leave this out";
-  if (field.use == of_period) return "it needs --wave; give it, too, or leave this out";
+  const char* const other = field.use == of_memory   ? "--noise"
+                            : field.use == of_bits   ? "--sensitivity"
+                            : field.use == of_period ? "--wave"
+                                                     : nullptr;
+  if (other != nullptr) return fmt::format("it needs {}; give both, or neither", other);
   return fmt::format("--law {} has no use for it; leave it out", law_of(setup).name);
 }
 

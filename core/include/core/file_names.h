@@ -12,8 +12,8 @@ std::string in_file_name(std::string_view name);
 // True if a name has this ending, such as ".svg", in small or capital letters.
 bool has_ending(std::string_view name, std::string_view ending);
 
-// True if the ending of a name is that of a picture, document, archive or spreadsheet other than `own`: a viewer opens
-// it as that.
+// True if the ending of a name is that of a picture, sound, film, document, table or archive other than `own`, as which
+// other programs would open the file.
 bool is_named_as_another(std::string_view name, std::string_view own);
 
 }  // namespace afm::core

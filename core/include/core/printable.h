@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -12,5 +13,8 @@ std::string printable(std::string_view text);
 
 // As printable(), for text that must be one line: newlines and tabs become spaces.
 std::string printable_line(std::string_view text);
+
+// Number of characters of a text in valid UTF-8: of all bytes except continuation bytes.
+std::size_t count_characters(std::string_view text);
 
 }  // namespace afm::core

@@ -73,6 +73,10 @@ struct RecordedCurve {
   CurveMetadata metadata;
 };
 
+// Doubt about a point that no force microscope records, beyond 1 m or 1 N or not a number: "at 20 m with 0 N is outside
+// the range of a force microscope; is it in SI?". Empty for any other point.
+std::string doubt_of(const physics::CurvePoint& point);
+
 inline constexpr std::size_t kMostCurvePoints = 4'000'000;
 inline constexpr std::size_t kMostRemarks = 64;
 

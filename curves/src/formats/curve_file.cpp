@@ -168,16 +168,13 @@ void recalibrate(const CurveReading& reading, RecordedCurve& curve) {
 
 // Checks the requirements on any curve.
 void check(RecordedCurve& curve) {
-  constexpr double kHighest_m = 1.0, kStrongest_n = 1.0, kStiffest_n_per_m = 1e6;
+  constexpr double kStiffest_n_per_m = 1e6;
   if (curve.points.size() < physics::kFewestApproachPoints) {
     throw CurveError(fmt::format("it has only {} point{}; a curve needs {}", curve.points.size(),
                                  curve.points.size() == 1 ? "" : "s", physics::kFewestApproachPoints));
   }
   for (const physics::CurvePoint& point : curve.points) {
-    if (!(std::abs(point.z.si) <= kHighest_m) || !(std::abs(point.force.si) <= kStrongest_n)) {
-      throw CurveError(fmt::format("a point at {} m with {} N is outside the range of a force microscope; is it in SI?",
-                                   point.z.si, point.force.si));
-    }
+    if (const std::string doubt = doubt_of(point); !doubt.empty()) throw CurveError("a point " + doubt);
   }
   if (const auto k = curve.metadata.spring_constant; k && !(k->si > 0.0 && k->si <= kStiffest_n_per_m)) {
     throw CurveError(fmt::format("its spring constant of {} N/m is not within 0 to 1 MN/m", k->si));

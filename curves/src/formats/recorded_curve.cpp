@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "curves/recorded_curve.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -18,6 +20,13 @@ RecordedCurve recorded_curve(const physics::ForceCurve& curve, physics::Stiffnes
   recorded.metadata.software = kComputedBy;
   recorded.metadata.software_version = core::kVersion;
   return recorded;
+}
+
+std::string doubt_of(const physics::CurvePoint& point) {
+  constexpr double kHighestM = 1.0, kStrongestN = 1.0;
+  if (std::abs(point.z.si) <= kHighestM && std::abs(point.force.si) <= kStrongestN) return "";
+  return fmt::format("at {} m with {} N is outside the range of a force microscope; is it in SI?", point.z.si,
+                     point.force.si);
 }
 
 bool is_map_of(std::size_t curves, const MapGrid& grid) {

@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <string_view>
+
+#include "core/printable.h"
 
 namespace afm::exhibit {
 
@@ -14,11 +15,6 @@ namespace {
 constexpr double kTargetsShare = 0.5;  // largest fraction of the panel's height for all targets
 constexpr double kTargetShare = 0.14;  // largest fraction for one target
 constexpr double kGapShare = 0.08;     // gap between two targets, relative to a target
-
-std::size_t letters_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<std::uint8_t>(c) & 0xC0U) != 0x80U; }));
-}
 
 }  // namespace
 
@@ -29,7 +25,7 @@ void add_lines(std::string_view text, std::size_t letters, std::vector<render::D
   while (!text.empty()) {
     const std::string_view word = text.substr(0, text.find(' '));
     text.remove_prefix(std::min(word.size() + 1, text.size()));
-    if (!line.empty() && letters_of(line) + 1 + letters_of(word) > letters) {
+    if (!line.empty() && core::count_characters(line) + 1 + core::count_characters(word) > letters) {
       rows.push_back({std::move(line), "", ""});
       line.clear();
     }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/printable.h"
 #include "scene/config/toml_file.h"
 
 namespace afm::exhibit {
@@ -42,19 +43,13 @@ std::string list_of(const std::vector<Place>& places) {
   return list.empty() ? "none" : list;
 }
 
-// Counts the characters of UTF-8 text that the TOML parser has checked: all bytes except continuation bytes.
-std::size_t characters(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 [[noreturn]] void refuse(const toml::node& node, std::string_view key, std::string what) {
   throw scene::Fault{node.source(), std::string(key), std::move(what)};
 }
 
 std::string line_of(const toml::node& node, std::string_view key, std::size_t limit) {
   const auto text = node.value_exact<std::string>();
-  if (!text || text->empty() || characters(*text) > limit) {
+  if (!text || text->empty() || core::count_characters(*text) > limit) {
     refuse(node, key, fmt::format("must be text of 1 to {} characters in quotes", limit));
   }
   return *text;

@@ -57,8 +57,12 @@ Key at_place(int code) {
 // True for the codes of keys whose printed sign depends on the layout.
 constexpr bool is_printing(int code) { return code >= GLFW_KEY_APOSTROPHE && code <= GLFW_KEY_WORLD_2; }
 
-// Letters of the two keys of a Turkish layout that are labelled I.
-constexpr char32_t kDotlessI = U'\u0131', kDottedI = U'\u0130';
+// A letter that is I, too, and its label in UTF-8: a Turkish layout has two keys labelled I.
+struct OtherI {
+  char32_t sign;
+  std::string_view label;
+};
+constexpr std::array kOtherIs{OtherI{U'\u0131', "\u0131"}, OtherI{U'\u0130', "\u0130"}};
 
 // Key named by a sign.
 Key named(char32_t sign) {
@@ -68,14 +72,18 @@ Key named(char32_t sign) {
   if (sign >= U'a' && sign <= U'z') return in_run(U'a', Key::A);
   if (sign >= U'A' && sign <= U'Z') return in_run(U'A', Key::A);
   if (sign >= U'0' && sign <= U'9') return in_run(U'0', Key::Digit0);
-  if (sign == kDotlessI || sign == kDottedI) return Key::I;
+  for (const OtherI& i : kOtherIs) {
+    if (sign == i.sign) return Key::I;
+  }
   if (sign == U'+') return Key::Plus;
   return sign == U'-' ? Key::Minus : Key::Other;
 }
 
 // Same for a label: a key labelled = has + as its second sign.
 Key labelled(std::string_view label) {
-  if (label == "\u0131" || label == "\u0130") return Key::I;
+  for (const OtherI& i : kOtherIs) {
+    if (label == i.label) return Key::I;
+  }
   if (label.size() != 1) return Key::Other;
   return label == "=" ? Key::Plus : named(static_cast<unsigned char>(label.front()));
 }

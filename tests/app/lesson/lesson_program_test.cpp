@@ -121,8 +121,8 @@ TEST(LessonProgram, RefusesADriveUnderWhichASampleCannotBeFelt) {
   EXPECT_EQ(alone.exit_code, 3);
   EXPECT_THAT(alone.err, HasSubstr("lesson file " + driven + ": " + why));
   const auto in_a_window = lesson(driven);
-  EXPECT_EQ(in_a_window.exit_code, 2);
-  EXPECT_THAT(in_a_window.err, HasSubstr(why));
+  EXPECT_EQ(in_a_window.exit_code, 3);
+  EXPECT_THAT(in_a_window.err, HasSubstr("lesson file " + driven + ": " + why));
   EXPECT_FALSE(fs::exists(folder.file("study"))) << "nothing of a study that cannot begin";
 }
 
