@@ -161,8 +161,11 @@ core::Result<void> check_tapping_options(const curves::TappingChoice& choice) {
   for (const TappingOption& option : kOptions) {
     if (option.text(given).empty()) continue;
     if ((choice.mode == "tapping" && option.tapping) || (choice.mode == "fm" && option.fm)) continue;
-    return wrong_usage(fmt::format("{} has no effect on --mode {}; remove it, or add --mode {}", option.name,
-                                   choice.mode, option.tapping ? "tapping" : "fm"));
+    const bool vibrates = choice.mode != "contact", amplitude = std::string_view(option.name).ends_with("amplitude");
+    const char* const of_mode = choice.mode == "fm" ? "--amplitude" : "--free-amplitude";
+    const std::string instead = vibrates && amplitude ? fmt::format("give {} instead", of_mode) : "remove it";
+    return wrong_usage(fmt::format("{} has no effect on --mode {}; {}, or take --mode {}", option.name, choice.mode,
+                                   instead, option.tapping ? "tapping" : "fm"));
   }
   if (choice.mode == "tapping" && choice.numbers.free_amplitude.empty()) {
     return wrong_usage("--mode tapping needs --free-amplitude, such as --free-amplitude 20nm");

@@ -21,8 +21,8 @@ std::vector<std::string> with_built_in(const std::string& built_in, const std::v
 // which never read them.
 scene::MaterialEntry nameless_material() {
   scene::MaterialEntry entry;
-  entry.name = "none";
-  entry.title = "Given on the command line";
+  entry.name = ContactSetup::kNoMaterial;
+  entry.title = "Contact given by numbers";
   entry.tip = entry.medium = "not named";
   entry.contact.sample_stiffness = physics::Stiffness(std::numeric_limits<double>::infinity());
   entry.contact.hamaker = physics::Energy(1e-20);

@@ -209,6 +209,12 @@ std::string ContactSetup::used_model() const {
   return fmt::format("{}{}", model.dynamic ? kDynamicPrefix : "", physics::name_of(law()));
 }
 
+std::string ContactSetup::heading() const {
+  const bool named = material.name != kNoMaterial;
+  return (named ? fmt::format("{}, {} tip, {}", material.title, material.tip, material.medium) : material.title) +
+         ": " + used_model();
+}
+
 std::span<const ContactParameter> contact_parameters() {
   static const auto parameters = make_parameters();
   return parameters;

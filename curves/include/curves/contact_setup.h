@@ -43,6 +43,8 @@ struct FeltDrive {
 
 // One tip, lever, sample and medium, and the model for its curve.
 struct ContactSetup {
+  static constexpr std::string_view kNoMaterial = "none";  // name of the material of a contact given by numbers alone
+
   scene::MaterialEntry material;  // includes probe and overrides in its numbers, with their sources
   physics::LawOptions law_options;
   ModelName model;
@@ -63,6 +65,9 @@ struct ContactSetup {
 
   // Name of the model actually used: "dmt", "dynamic-dmt", "paper-rule".
   std::string used_model() const;
+
+  // Heading of a plot: sample, tip and medium, as far as they have names, and the model.
+  std::string heading() const;
 };
 
 // A parameter that users can set, sweep and find in results: as --option on the command line, as json_key in SI.

@@ -206,8 +206,7 @@ json base_json(const Run& run, const char* mode) {
 
 template <class Run>
 std::string title_of_run(const Run& run, const char* what) {
-  return fmt::format("{}, {} tip, {}: {}, {}", run.setup.material.title, run.setup.material.tip,
-                     run.setup.material.medium, run.model, what);
+  return fmt::format("{}, {}", run.setup.heading(), what);
 }
 
 }  // namespace

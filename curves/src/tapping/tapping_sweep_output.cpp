@@ -35,10 +35,7 @@ std::string label_of(const SweepAxis& axis) {
 }
 AxisScale scale_of(const SweepAxis& axis) { return axis.logarithmic ? AxisScale::Logarithmic : AxisScale::Linear; }
 
-std::string title_of(const TappingSweep& sweep) {
-  return fmt::format("{}, {} tip, {}: {}, regimes of tapping", sweep.setup.material.title, sweep.setup.material.tip,
-                     sweep.setup.material.medium, sweep.setup.used_model());
-}
+std::string title_of(const TappingSweep& sweep) { return sweep.setup.heading() + ", regimes of tapping"; }
 
 // Adds the dots of two axes, with the regimes as empty lines of the legend.
 void add_dots(const TappingSweep& sweep, SvgPlot& plot) {

@@ -236,17 +236,23 @@ SampleSurface::Place SampleSurface::at(const glm::dvec2& xy_m) const noexcept {
   const double u = along(xy_m.x, columns_), v = along(xy_m.y, rows_);
   const double column = std::floor(u + 0.5), row = std::floor(v + 0.5);
   const Weights wx = weights_at(u - column), wy = weights_at(v - row);
+  const auto within = [](double first, int i, int count) {
+    return std::clamp(static_cast<int>(first) + i - 1, 0, count - 1);
+  };
+  const std::array<int, 3> columns{within(column, 0, columns_), within(column, 1, columns_),
+                                   within(column, 2, columns_)};
   Place place;
-  for (int k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double* const line = line_of(static_cast<int>(row) + static_cast<int>(k) - 1);
     double height_m = 0, slope_m = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double control = control_m(static_cast<int>(column) + i - 1, static_cast<int>(row) + k - 1);
-      height_m += wx.value[static_cast<std::size_t>(i)] * control;
-      slope_m += wx.slope[static_cast<std::size_t>(i)] * control;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double control = line[columns[i]];
+      height_m += wx.value[i] * control;
+      slope_m += wx.slope[i] * control;
     }
-    place.height_m += wy.value[static_cast<std::size_t>(k)] * height_m;
-    place.slope.x += wy.value[static_cast<std::size_t>(k)] * slope_m / spacing_m_;
-    place.slope.y += wy.slope[static_cast<std::size_t>(k)] * height_m / spacing_m_;
+    place.height_m += wy.value[k] * height_m;
+    place.slope.x += wy.value[k] * slope_m / spacing_m_;
+    place.slope.y += wy.slope[k] * height_m / spacing_m_;
   }
   if (!rim_) return place;
   if (const physics::Rim::Share share = rim_->share_at(xy_m.x, xy_m.y); share.value != 1.0) {

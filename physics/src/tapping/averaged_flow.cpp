@@ -16,6 +16,7 @@ constexpr double kShiftError = 1e-17;      // absolute error of a shift, m
 constexpr double kShiftShare = 1e-7;       // error of a shift, as a fraction of it
 constexpr double kCoarse = 300.0;          // errors of averages that no derivative is taken of, in those of the others
 constexpr double kLeastSlope = -0.2;       // slope of <F G>/k - x; no step is longer than five times what is missing
+constexpr double kHopelessShift = -1.0;    // shift below which no search that falls has returned, m
 
 // At the resonance every felt swing is that of earlier versions.
 bool answers_at_drive(AveragedFlow::Search search, const DrivenLever& lever) {
@@ -68,7 +69,7 @@ bool AveragedFlow::bent_averages_at(double amplitude, double z, double coarsenes
       shift_ = x;
       return true;
     }
-    if (!std::isfinite(missing)) break;
+    if (!std::isfinite(missing) || (x < kHopelessShift && missing < 0.0)) break;
     // x waits for the shape, so that the slope is its own
     if (bend_error > std::max(bound, kShapeShare * std::abs(missing))) continue;
     if (x != before) slope = std::min((missing - missing_before) / (x - before), kLeastSlope);

@@ -151,7 +151,7 @@ double TapEnvelope::between(const std::vector<Node>& nodes, const Place& place, 
                                                                         Cell& cell) const noexcept {
   const double gap = gap_m - amplitude_m - contact_m_;
   const double y = (amplitude_m - least_amplitude_m_) * pace_.by_row;
-  const double x = cell.columns * (cell.whole + cell.share * (1.0 + cell.by_gap * gap)) - least_x_;
+  const double x = cell.columns * (cell.whole + (cell.share + cell.by_gap * gap)) - least_x_;
   if (cell.left <= x && x < cell.left + 1.0 && cell.low <= y && y < cell.high) return cell.at(x, y);
   const double column = std::max(0.0, column_of(gap) - least_x_), row = std::clamp(y, 0.0, kLastRow);
   if (!(column < last_column_)) return {};
@@ -175,7 +175,7 @@ void TapEnvelope::enter_cell(double x, double y, Cell& cell) const noexcept {
           .columns = above ? double{kColumnsOfOctave} : -double{kColumnsOfOctave},
           .whole = static_cast<double>(octave) - 1.0,
           .share = 1.0 / static_cast<double>(1 << octave),
-          .by_gap = (above ? 1.0 : -1.0) / kFinestGap,
+          .by_gap = (above ? 1.0 : -1.0) / kFinestGap / static_cast<double>(1 << octave),
           .virial_below = line(low[0].virial, low[1].virial),
           .virial_above = line(high[0].virial, high[1].virial),
           .lost_below = line(low[0].lost, low[1].lost),

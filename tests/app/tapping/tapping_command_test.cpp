@@ -278,7 +278,9 @@ TEST(TappingCommand, RefusesOptionsWithoutEffect) {
   EXPECT_THAT(refusal(contact), HasSubstr("--free-amplitude has no effect on --mode contact"));
   curves::TappingChoice fm = tapping();
   fm.mode = "fm";
-  EXPECT_THAT(refusal(fm), HasSubstr("--free-amplitude has no effect on --mode fm"));
+  EXPECT_THAT(
+      refusal(fm),
+      HasSubstr("--free-amplitude has no effect on --mode fm; give --amplitude instead, or take --mode tapping"));
   EXPECT_THAT(refusal(tapping(), tapped(), {.seed = "3"}), HasSubstr("--seed has no effect"));
   EXPECT_THAT(refusal(tapping(), tapped(), {}, "h5"), HasSubstr("csv, json or svg"));
 }

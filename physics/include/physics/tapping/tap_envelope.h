@@ -83,7 +83,7 @@ class TapEnvelope {
     std::vector<Forces> forces;
   };
   // Terms that move a swing, between two columns and between two rows. A column there is
-  // `columns` (`whole` + `share` (1 + `by_gap` gap)), with the gap of the lowest point from contact.
+  // `columns` (`whole` + (`share` + `by_gap` gap)), with the gap of the lowest point from contact.
   struct Line {
     double from = 0, rise = 0;
     double at(double share) const noexcept { return from + share * rise; }
