@@ -14,6 +14,7 @@ using Points = std::span<const LateralPoint>;
 // Distance back, as a share of the whole run's width, from which on a turn counts; larger than the noise.
 constexpr double kTurnShare = 0.1;
 constexpr double kStickShare = 0.4;   // change of force, as a share of that at a turn, below which the tip still sticks
+constexpr double kNoWidth = 1e-4;     // difference of both strokes that is rounding, as a share of the change of force
 constexpr double kBeyondStick = 1.1;  // beginning of sliding, in units of the distance over which the tip sticks
 
 // Places of the points at which the direction changes, with the first and the last point.
@@ -100,10 +101,11 @@ std::optional<FrictionLoop> loop_between(Points run, std::size_t a, std::size_t 
   if (!(high > low)) return std::nullopt;
 
   const double there = mean_between(forward, low, high), back = mean_between(backward, low, high);
-  return FrictionLoop{.half_width = Force(0.5 * (there - back)),
+  const double width = std::abs(there - back) > kNoWidth * change ? there - back : 0.0;
+  return FrictionLoop{.half_width = Force(0.5 * width),
                       .offset = Force(0.5 * (there + back)),
                       .slope = Stiffness(slope),
-                      .dissipated = Energy((there - back) * (high - low)),
+                      .dissipated = Energy(width * (high - low)),
                       .begin = a,
                       .turn = b,
                       .end = c};

@@ -53,6 +53,21 @@ TEST(FrictionLoop, HasTheMeanForceOfAStickSlip) {
   EXPECT_NEAR(loop->offset.si, 0.0, 0.01 * mean_friction(row).si);
 }
 
+// Below the corrugation at which the tip jumps, both strokes have the same forces: only the rounding of sums differs.
+TEST(FrictionLoop, HasNoWidthWhereTheTipSlidesWithoutJumps) {
+  const SineLattice row{0.5_nm, Energy(2e-21), 1_N_per_m};
+  LatticeTip tip(LatticeKind::Rows, row.period, row.spring);
+  const Energy scale = scale_of_row(LatticeKind::Rows, row.amplitude);
+  tip.land({}, scale);
+  for (const double stroke_m : {10.1e-9, 40.1e-9, 33.333e-9}) {
+    const auto run = cycles(tip, [&](auto& t, const Sideways<Length>& to) { t.move_to(to, scale); }, stroke_m, 777);
+    const auto loop = last_friction_loop(run);
+    ASSERT_TRUE(loop);
+    EXPECT_EQ(loop->half_width.si, 0.0);
+    EXPECT_EQ(loop->dissipated.si, 0.0);
+  }
+}
+
 TEST(FrictionLoop, IsFoundUnderNoise) {
   AnchoredTip tip(3_N_per_m);
   tip.land({});
