@@ -27,9 +27,8 @@ constexpr int kPatienceFrames = 30;
 constexpr int kMostPatienceFrames = 1920;
 constexpr double kLeastBudget_ms = 1.0, kMostBudget_ms = 1000.0;
 
-// Budget for 16 frames per second with everything moving on two cores, at which a jump can still be followed. The force
-// is lost only after 250 ms.
-constexpr double kProcessorBudget_ms = 60.0;
+// Budget for 20 frames per second with everything moving on two cores. The force is lost only after 250 ms.
+constexpr double kProcessorBudget_ms = 48.0;
 
 constexpr double kFourSamplesCost = 2.8;  // largest cost relative to one sample, from the measurements in the design
 

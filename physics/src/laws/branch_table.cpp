@@ -93,12 +93,14 @@ Force BranchTable::force_beyond(double z, double distance) const noexcept {
 }
 
 Force BranchTable::force(Length z) const noexcept {
-  const double distance = std::max(0.0, (z.si - end_z_) * side_);
+  const double distance = std::max(0.0, side_ > 0.0 ? z.si - end_z_ : end_z_ - z.si);
   if (distance >= reach_) return force_beyond(z.si, distance);
-  if (spacing_ > 0.0) return Force(in_even(pieces_.front(), spacing_, distance));
-  std::size_t piece = pieces_.size() - 1;
-  while (piece > 0 && distance < pieces_[piece].start) --piece;
-  return Force(in_graded(pieces_[piece], distance - pieces_[piece].start));
+  const Piece* piece = pieces_.data();
+  if (spacing_ > 0.0) return Force(in_even(*piece, spacing_, distance));
+  // a swing waits for each force: most laws have one piece, which starts at zero
+  if (pieces_.size() == 1) return Force(in_graded(*piece, distance));
+  for (piece += pieces_.size() - 1; piece->start > distance; --piece) {}
+  return Force(in_graded(*piece, distance - piece->start));
 }
 
 }  // namespace afm::physics

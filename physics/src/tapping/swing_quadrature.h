@@ -52,6 +52,7 @@ struct SwingGeometry {
   HarmonicResponse response;
   SwingShape* shape = nullptr;  // bend of the swing, updated with the forces; null: none
   double ways = 1.0;            // fraction of both ways in which the force acts: 1, or one half
+  bool viscous = false;         // true: the sample has a viscous force
   double friction = 0.0;        // viscous force over sqrt(delta) and the tip's speed in A, N/sqrt(m)
 
   double bend(double angle) const { return shape == nullptr ? 0.0 : shape->bend(angle); }
@@ -84,12 +85,15 @@ struct SwingGeometry {
     if (shape != nullptr) bent = ways == 1.0 ? shape->bend_now(angle, of_angle, turned) : shape->bend(angle);
     const double h = bottom + 2.0 * amplitude * s * s + bent;
     const double here = force_at(h), force = weight * here;
-    const double bending = shape == nullptr ? 0.0 : shape->add(angle, of_angle, turned, ways * weight, here, bent);
+    const bool slides = viscous && h < zero_of_indentation;
+    const double bending =
+        slides && shape != nullptr ? shape->rate_now(angle, of_angle, turned, ways * weight, here) : 0.0;
+    if (shape != nullptr) shape->add(angle, of_angle, turned, ways * weight, here, bent);
     sums.force += force;
     sums.cosine += force * cosine;
     sums.work += force * sine;
     sums.shift += force * response.at_lowest(angle, of_angle, turned);
-    if (h < zero_of_indentation) {
+    if (slides) {
       const double speed = sine + bending / amplitude;
       const double speed_squared = bending == 0.0 ? sine_squared : speed * speed;
       const double root = std::sqrt(zero_of_indentation - h);

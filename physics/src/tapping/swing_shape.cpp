@@ -26,7 +26,8 @@ double SwingShape::bend(double angle) const noexcept {
 
 void SwingShape::straighten() noexcept {
   old_count_ = cursor_ = 0;
-  p_ = c_ = rate_squares_ = 0.0;
+  p_ = c_ = 0.0;
+  square_rates_ = 0.0;
   straight_ = {};
 }
 
@@ -40,12 +41,39 @@ SwingShape::Straight SwingShape::straight_part_of(const Nodes& nodes) const noex
   return straight;
 }
 
+// In the order in which the nodes were added.
+double SwingShape::sum_of_square_rates(const Nodes& nodes, std::size_t count) const noexcept {
+  Turned before{0.0, 0.0};
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Node& node = nodes[i];
+    const double here = exact_ ? 0.5 * node.bending : 0.0;
+    const double rate = response_.rate(used_p_, used_c_, node.angle, node.of_angle, node.turned, before, here);
+    sum += node.weight * rate * rate;
+    before.cosine += node.bending * node.turned.cosine;
+    before.sine += node.bending * node.turned.sine;
+  }
+  return sum;
+}
+
+double SwingShape::mean_square_rate() const noexcept {
+  // most quadratures of a search are never asked
+  if (!square_rates_) square_rates_ = sum_of_square_rates(nodes_[1 - filling_], old_count_);
+  return *square_rates_ / std::numbers::pi;
+}
+
 double SwingShape::finish() noexcept {
   Nodes& newest = nodes_[filling_];
+  used_p_ = p_;
+  used_c_ = c_;
+  square_rates_.reset();
   // the branches of a latch overlap
   const auto before = [](const Node& a, const Node& b) { return a.angle < b.angle; };
   const auto end = newest.begin() + static_cast<std::ptrdiff_t>(count_);
-  if (!std::is_sorted(newest.begin(), end, before)) std::sort(newest.begin(), end, before);
+  if (!std::is_sorted(newest.begin(), end, before)) {
+    square_rates_ = sum_of_square_rates(newest, count_);
+    std::sort(newest.begin(), end, before);
+  }
   double p = 0.0, c = 0.0;
   const auto sum_up = [&] {
     p = c = 0.0;

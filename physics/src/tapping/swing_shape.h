@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 
 #include "tapping/harmonic_response.h"
 
@@ -38,7 +39,6 @@ class SwingShape {
   void begin() noexcept {
     count_ = 0;
     before_ = {0.0, 0.0};
-    rate_squares_ = 0.0;
   }
 
   // Bend at the next node: its angle, and the cosine and sine of it and of the angle turned by the response.
@@ -46,22 +46,26 @@ class SwingShape {
     return response_.bend(p_, c_, angle, of_angle, turned, before_);
   }
 
-  // Adds a node with its weight, its force, in N, and the bend with which it was computed. Returns the rate of the bend
-  // there, in m per rad; 0 unless `exact`.
-  double add(double angle, const Turned& of_angle, const Turned& turned, double weight, double force,
-             double bend) noexcept {
-    if (count_ == kMostNodes) return 0.0;
-    const double bending = weight * (force - straight_.at(of_angle)), here = exact_ ? 0.5 * bending : 0.0;
-    const double rate = response_.rate(p_, c_, angle, of_angle, turned, before_, here);
-    rate_squares_ += weight * rate * rate;
-    before_.cosine += bending * turned.cosine;
-    before_.sine += bending * turned.sine;
-    nodes_[filling_][count_++] = {angle, weight, of_angle, turned, weight * force, bend};
-    return exact_ ? rate : 0.0;
+  // Rate of the bend at the next node, in m per rad; 0 unless `exact`.
+  double rate_now(double angle, const Turned& of_angle, const Turned& turned, double weight,
+                  double force) const noexcept {
+    if (!exact_ || count_ == kMostNodes) return 0.0;
+    const double bending = weight * (force - straight_.at(of_angle));
+    return response_.rate(p_, c_, angle, of_angle, turned, before_, 0.5 * bending);
   }
 
-  // Mean square of dy/dt over the newest quadrature, in m^2: half of the sum of n^2 A_n^2 over the harmonics n > 1.
-  double mean_square_rate() const noexcept { return rate_squares_ / std::numbers::pi; }
+  // Adds a node with its weight, its force, in N, and the bend with which it was computed.
+  void add(double angle, const Turned& of_angle, const Turned& turned, double weight, double force,
+           double bend) noexcept {
+    if (count_ == kMostNodes) return;
+    const double bending = weight * (force - straight_.at(of_angle));
+    before_.cosine += bending * turned.cosine;
+    before_.sine += bending * turned.sine;
+    nodes_[filling_][count_++] = {angle, weight, of_angle, turned, weight * force, bending, bend};
+  }
+
+  // Mean square of dy/dt over the complete quadrature, in m^2: half of the sum of n^2 A_n^2 over the harmonics n > 1.
+  double mean_square_rate() const noexcept;
 
   // Error of the bend: its difference from the one that the resulting P and C give, weighted by the force, in m.
   double finish() noexcept;
@@ -76,20 +80,22 @@ class SwingShape {
   struct Node {
     double angle = 0, weight = 0;
     Turned of_angle{0.0, 0.0}, turned{0.0, 0.0};
-    double force = 0, bend = 0;
+    double force = 0, bending = 0, bend = 0;  // weight times the force, and times its part that bends
   };
   // Upper bound of a quadrature's nodes: 12 for each factor of four between the closest height and the largest.
   static constexpr std::size_t kMostNodes = 512;
   using Nodes = std::array<Node, kMostNodes>;
 
   Straight straight_part_of(const Nodes& nodes) const noexcept;
+  double sum_of_square_rates(const Nodes& nodes, std::size_t count) const noexcept;
 
   HarmonicResponse response_;
   bool exact_;
-  Straight straight_;          // part of F in the complete quadrature that causes no bend; 0 unless exact
-  double p_ = 0.0, c_ = 0.0;   // P and C of the rest of F
-  Turned before_{0.0, 0.0};    // integrals of the rest times cosine and sine of the turned angle, up to the newest node
-  double rate_squares_ = 0.0;  // integral of (dy/dt)^2 up to the newest node
+  Straight straight_;                   // part of F in the complete quadrature that causes no bend; 0 unless exact
+  double p_ = 0.0, c_ = 0.0;            // P and C of the rest of F
+  double used_p_ = 0.0, used_c_ = 0.0;  // P and C with which the complete quadrature was made
+  Turned before_{0.0, 0.0};  // integrals of the rest times cosine and sine of the turned angle, up to the newest node
+  mutable std::optional<double> square_rates_;  // integral of (dy/dt)^2 over the complete quadrature, once it is known
   std::array<Nodes, 2> nodes_;
   std::size_t filling_ = 0;  // index of the newer quadrature; the other one is complete
   std::size_t old_count_ = 0, count_ = 0;

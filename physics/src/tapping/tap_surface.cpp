@@ -34,7 +34,8 @@ SwingAverages averages_over(const TapSwing& swing, const SwungLaw& law, SwingSha
   const double amplitude = swing.amplitude.si, bottom = swing.centre.si - amplitude;
   const HarmonicResponse response = shape != nullptr ? shape->response() : HarmonicResponse(1.0, swing.ratio);
   const double friction = law.viscous * amplitude * swing.angular_rate;
-  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, response, shape, 1.0, friction};
+  const SwingGeometry geometry{amplitude, bottom, law.zero_of_indentation, response,
+                               shape,     1.0,    law.viscous > 0.0,       friction};
   SwingGeometry one_way = geometry;
   one_way.ways = 0.5;
   one_way.friction = 0.0;  // in contact it is on its way up
