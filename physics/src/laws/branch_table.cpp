@@ -99,7 +99,8 @@ Force BranchTable::force(Length z) const noexcept {
   if (spacing_ > 0.0) return Force(in_even(*piece, spacing_, distance));
   // a swing waits for each force: most laws have one piece, which starts at zero
   if (pieces_.size() == 1) return Force(in_graded(*piece, distance));
-  for (piece += pieces_.size() - 1; piece->start > distance; --piece) {}
+  piece += pieces_.size() - 1;
+  while (piece->start > distance) --piece;
   return Force(in_graded(*piece, distance - piece->start));
 }
 
