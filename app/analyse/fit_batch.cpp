@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -53,7 +54,7 @@ constexpr const char* kColumns =
     "m2\t"
     "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\t"
     "modulus_bootstrap_low_Pa\tmodulus_bootstrap_high_Pa\tW_bootstrap_low_J_per_m2\tW_bootstrap_high_J_per_m2\t"
-    "source\tsoftware\n";
+    "source\tsoftware\tremarks\n";
 
 std::string reasons(const fits::ElasticFit& fit) {
   std::string text;
@@ -132,8 +133,11 @@ std::string bootstrap_cells(const fits::ElasticFit& fit) {
   return moduli + (fit.adhesion ? fmt::format("{}\t{}", work.low, work.high) : "\t");
 }
 
-// Publication of the law, and the program.
-std::string origin(fits::Shape shape) { return fmt::format("{}\t{}", fits::row_of(shape).meaning, core::written_by()); }
+// Publication of the law, the program, and what the reading of the curve remarks.
+std::string origin(fits::Shape shape, const curves::FittedCurve& fitted) {
+  const std::string remarks = fmt::format("{}", fmt::join(fitted.remarks, "; "));
+  return fmt::format("{}\t{}\t{}", fits::row_of(shape).meaning, core::written_by(), core::printable_line(remarks));
+}
 
 // Path of a file as a cell. A spreadsheet would compute a name that begins like a formula, also within quotes.
 std::string path_cell(const std::string& file) {
@@ -155,7 +159,7 @@ std::string row_of(const FileCells& file, std::size_t index, const curves::Fitte
     constexpr std::size_t kNumbers = 16, kAdhesionCells = 8;
     return fmt::format("{}\tnone\t{}{}\t{}{}\t{}\t\t\t\t\t{}\n", file.name, core::printable_line(fitted.why),
                        std::string(kNumbers, '\t'), file.sizes_of_fit, std::string(kAdhesionCells, '\t'),
-                       features(index, fitted), origin(*options.shape));
+                       features(index, fitted), origin(*options.shape, fitted));
   }
   const fits::ElasticFit& fit = *fitted.fit;
   const auto finite = [](double value) { return cell(std::isfinite(value) ? std::optional(value) : std::nullopt); };
@@ -166,7 +170,7 @@ std::string row_of(const FileCells& file, std::size_t index, const curves::Fitte
                      cell(options.tilt ? std::optional(fit.tilt_n_per_m) : std::nullopt), fit.depth_m, fit.noise_n,
                      fit.rms_n, fit.points, fit.in_contact, order, fit.runs_p, cell(fit.half_depth_modulus_pa),
                      fitted.spring_n_per_m, file.sizes_of_fit, adhesion_cells(fit), features(index, fitted),
-                     bootstrap_cells(fit), origin(fit.shape));
+                     bootstrap_cells(fit), origin(fit.shape, fitted));
 }
 
 core::Result<void> add_to_table(int table, const std::string& path, std::string_view text) {
@@ -252,6 +256,21 @@ core::Result<void> write_page(const AnalyseOptions& options, const Summary& summ
   return core::write_file((folder / kPage).string(), page.html(results, map_texts(options.fit), histograms));
 }
 
+// Logs each remark on the curves of a file once.
+class Remarks {
+ public:
+  void tell(const std::string& file, const curves::FittedCurve& fitted) {
+    for (const std::string& remark : fitted.remarks) {
+      if (told_.size() < curves::kMostRemarks && told_.insert(remark).second) {
+        core::log_line(fmt::format("{}: {}", core::printable_line(file), core::printable_line(remark)));
+      }
+    }
+  }
+
+ private:
+  std::set<std::string> told_;
+};
+
 // Logs the progress once a second.
 class Progress {
  public:
@@ -295,6 +314,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
       FitMaps maps(*count);
       page.begin(file);
       const FileCells cells(file, options.fit);
+      Remarks remarks;
       std::string rows;
       std::size_t index = 0;
       for (; index < *count; ++index) {
@@ -304,6 +324,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
         if (!pool.has_next() || rows.size() > kMostUnwritten) {
           if (const auto written = write(std::exchange(rows, {})); !written) return written;
         }
+        remarks.tell(file, *fitted);
         summary.add(*fitted);
         page.add(*fitted);
         maps.add(*fitted);

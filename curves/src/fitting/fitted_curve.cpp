@@ -36,6 +36,7 @@ FittedCurve fitted_curve(const std::string& file, core::Result<RecordedCurve> cu
     }
     result.position = curve->metadata.position;
     result.pixel = curve->metadata.pixel;
+    result.remarks = curve->metadata.remarks;
     const auto analysis = analysed(file, std::move(*curve), method, baseline);
     if (!analysis) {
       result.why = analysis.error().message;

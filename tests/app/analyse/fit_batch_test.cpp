@@ -109,6 +109,28 @@ TEST(FitBatch, HasNoCellThatASpreadsheetTakesForAFormula) {
   for (std::size_t i = 0; i < files.size(); ++i) EXPECT_EQ(rows[i + 1][0], (i < 5 ? "./" : "") + files[i]);
 }
 
+// With the unit of --columns the forces are a thousand times too large.
+TEST(FitBatch, RemarksOnAHeadingThatContradictsTheColumns) {
+  const support::ScratchFolder folder;
+  std::string table = "Height [nm]\tForce [pN]\n";
+  for (int i = 0; i < 200; ++i) {
+    const double z_nm = 400.0 - 4.0 * i, depth_nm = std::max(0.0, -z_nm);
+    table += std::to_string(z_nm) + "\t" + std::to_string(std::pow(depth_nm, 1.5) + (i % 2 == 0 ? 0.5 : -0.5)) + "\n";
+  }
+  const std::string file = folder.write("gel.txt", table);
+  const auto done = support::run_program(support::touchafm() + " analyse " + file +
+                                         " --columns 'height:nm force:nN' --spring-constant 50N/m --fit paraboloid "
+                                         "--radius 5um --out " +
+                                         folder.file("out"));
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  const auto rows = rows_of(folder.file("out/fits.tsv"));
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].back(), "remarks");
+  const std::string remark = "the heading of column 2 is \"Force [pN]\", and --columns names another unit";
+  EXPECT_EQ(rows[1].back(), remark);
+  EXPECT_THAT(done.err, HasSubstr("gel.txt: " + remark));
+}
+
 TEST(FitBatch, EndsWithAPageOfResultsSettingsAndReasons) {
   const support::ScratchFolder folder;
   const auto files = files_in(folder);

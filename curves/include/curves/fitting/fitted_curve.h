@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "curves/fitting/curve_fit.h"
@@ -26,6 +27,7 @@ struct FittedCurve {
   std::optional<fits::ElasticFit> fit;  // fit without its model; empty: none
   double spring_n_per_m = 0;
   std::string why;
+  std::vector<std::string> remarks;  // remarks of the reading
   CurveFigures figures;
   std::optional<CurvePosition> position;
   std::optional<MapPixel> pixel;
