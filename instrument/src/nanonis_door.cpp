@@ -47,7 +47,6 @@ struct NanonisDoor::Functions {
   }
 
   static float signal(NanonisDoor& door, std::int32_t index) {
-    if (index < 0 || index >= kSignals) throw RefusedRequest(fmt::format("there is no signal {}", index));
     const SimulatedInstrument::Position& at = door.instrument_.position();
     switch (index) {
       case 1:
@@ -72,7 +71,7 @@ struct NanonisDoor::Functions {
     for (std::int32_t i = 0; i < kSignals; ++i) out.add_text(name_of_signal(i));
   }
   static void val_get(NanonisDoor& door, NanonisReader& in, NanonisWriter& out) {
-    const auto index = in.read<std::int32_t>();
+    const std::int32_t index = index_of(in);
     in.read<std::uint32_t>();  // flag of waiting for the newest value, which is this one
     out.add(signal(door, index));
   }
@@ -129,11 +128,12 @@ struct NanonisDoor::Functions {
     const double force_n = in.real();
     change(door, [force_n](InstrumentSettings& settings) { settings.scan.setpoint = physics::Force(force_n); });
   }
-  // Nanonis' integral gain is the proportional one over a time constant; ours is in 1/s without it
+  // Three numbers for two: I = P/T, in 1/s. Without a proportional gain T is zero.
   static void gain_get(NanonisDoor& door, NanonisReader&, NanonisWriter& out) {
     const physics::ScanSettings& scan = door.instrument_.settings().scan;
     const double integral = scan.integral_gain.si, proportional = scan.proportional_gain;
-    out.add(static_cast<float>(proportional)).add(static_cast<float>(1.0 / integral)).add(static_cast<float>(integral));
+    const double constant_s = proportional == 0 ? 0.0 : proportional / integral;
+    out.add(static_cast<float>(proportional)).add(static_cast<float>(constant_s)).add(static_cast<float>(integral));
   }
   static void gain_set(NanonisDoor& door, NanonisReader& in, NanonisWriter&) {
     const double proportional = in.real();

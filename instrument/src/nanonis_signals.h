@@ -41,12 +41,20 @@ inline std::string name_of_signal(std::int32_t index) {
   return named != nullptr ? std::string(named->name) : fmt::format("Not used {}", index);
 }
 
-// A count of 0 to kSignals, and as many indexes of signals. RefusedRequest for any other count.
+// Index of a signal. RefusedRequest for any other number.
+inline std::int32_t index_of(NanonisReader& in) {
+  const auto index = in.read<std::int32_t>();
+  if (index < 0 || index >= kSignals) throw RefusedRequest(fmt::format("there is no signal {}", index));
+  return index;
+}
+
+// A count of 1 to kSignals, and as many indexes of signals. RefusedRequest for any other count or index.
 inline std::vector<std::int32_t> indexes_of(NanonisReader& in) {
   const auto count = in.read<std::int32_t>();
-  if (count < 0 || count > kSignals) throw RefusedRequest(fmt::format("{} signals are too many", count));
+  if (count < 1 || count > kSignals)
+    throw RefusedRequest(fmt::format("{} signals instead of 1 to {}", count, kSignals));
   std::vector<std::int32_t> indexes(static_cast<std::size_t>(count));
-  for (std::int32_t& index : indexes) index = in.read<std::int32_t>();
+  for (std::int32_t& index : indexes) index = index_of(in);
   return indexes;
 }
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import compat as compat
 from . import serve as serve
-from .maps import fit as fit_map
+from . import maps as maps
 
 __version__: str
 
@@ -489,6 +489,7 @@ class _LeverCalibration:
     ) -> Lever: ...
 
 lever: _LeverCalibration
+fit_map = maps.fit
 
 def materials() -> list[str]: ...
 def probes() -> list[str]: ...

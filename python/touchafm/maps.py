@@ -45,7 +45,8 @@ class MapImage(typing.NamedTuple):
 
 
 class Table(dict[str, list[Any]]):
-    """Columns by their names, which have SI units; a row for each pixel. Where pandas is installed, a DataFrame takes its place."""
+    """Columns by their names, which have SI units; a row for each pixel. Where pandas is installed, a DataFrame indexed by row and
+    column takes its place."""
 
     def to_csv(self, path: Union[str, "os.PathLike[str]"]) -> None:
         """Writes the columns as text between commas, numbers with all digits, NaN as nothing. OSError if it cannot be written."""
@@ -78,15 +79,16 @@ class FitMap(typing.NamedTuple):
 
     @property
     def table(self) -> Any:
-        """A row for each pixel, the top one first: row and column from the top left, numbers in SI, and the flag. A DataFrame of pandas if
-        it is installed, else a Table; both have to_csv(). Where nothing was fitted a number is NaN."""
+        """A row for each pixel, the top one first: row and column from the top left, numbers in SI, and the flag. A DataFrame of pandas,
+        indexed by row and column, if it is installed, else a Table; to_csv() of both writes the same columns. Where nothing was fitted a
+        number is NaN."""
         rows, columns = np.indices(self.E.shape)
         table = Table(row=rows.ravel().tolist(), column=columns.ravel().tolist())
         for name, unit in _UNITS.items():
             table[f"{name}_{unit.replace('/', '_per_').replace('^', '')}"] = getattr(self, name).ravel().tolist()
         table["flag"] = self.flag.ravel().tolist()
         try:
-            return importlib.import_module("pandas").DataFrame(table)
+            return importlib.import_module("pandas").DataFrame(table).set_index(["row", "column"])
         except ImportError:
             return table
 

@@ -122,7 +122,8 @@ TEST_F(NanonisDoorTest, ScansAFlatSample) {
 TEST_F(NanonisDoorTest, ShowsTheImageOfTheInstrument) {
   instrument_.approach(NanonisDoor::kApproachSpeedM);
   results_of("Scan.FrameSet", NanonisWriter().add(5e-9F).add(-5e-9F).add(30e-9F).add(15e-9F).add(15.0F));
-  results_of("Scan.BufferSet", NanonisWriter().add_count(0).add(std::int32_t{32}).add(std::int32_t{8}));
+  results_of("Scan.BufferSet",
+             NanonisWriter().add_count(1).add(std::int32_t{30}).add(std::int32_t{32}).add(std::int32_t{8}));
   start_scan(1);
   EXPECT_EQ(grab(30, true).size(), 256U);
   EXPECT_EQ(grab(1, false).size(), 256U);
@@ -143,7 +144,8 @@ TEST_F(NanonisDoorTest, TakesTheImageOfTheFrameWhereverTheTipIs) {
   ASSERT_TRUE(instrument_.change(settings));
   instrument_.approach(NanonisDoor::kApproachSpeedM);
   results_of("Scan.FrameSet", NanonisWriter().add(2e-9F).add(1e-9F).add(20e-9F).add(20e-9F).add(0.0F));
-  results_of("Scan.BufferSet", NanonisWriter().add_count(0).add(std::int32_t{8}).add(std::int32_t{8}));
+  results_of("Scan.BufferSet",
+             NanonisWriter().add_count(1).add(std::int32_t{30}).add(std::int32_t{8}).add(std::int32_t{8}));
   start_scan();
   const std::vector<float> before = grab(30, true);
   results_of("FolMe.XYPosSet", NanonisWriter().add(7e-9).add(-6e-9).add(std::uint32_t{1}));
@@ -298,7 +300,7 @@ TEST_F(NanonisDoorTest, AnswersWithAnErrorWhereClientsLookForIt) {
               HasSubstr("no image"));
   EXPECT_THAT(error_of("Scan.PropsSet", NanonisWriter().add(0U).add(0U).add(0U).add(std::int32_t{-5})),
               HasSubstr("negative"));
-  EXPECT_THAT(error_of("Scan.BufferSet", NanonisWriter().add(std::int32_t{0}).add(std::int32_t{1 << 30}).add(1)),
+  EXPECT_THAT(error_of("Scan.BufferSet", NanonisWriter().add_count(1).add(30).add(std::int32_t{1 << 30}).add(1)),
               HasSubstr("pixels"));
 }
 

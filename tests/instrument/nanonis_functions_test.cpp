@@ -43,7 +43,7 @@ constexpr std::array kCalls{
     Call{"ZCtrl.SetpntSet", "30 89 70 5f", "", 0},
     Call{"ZCtrl.SetpntGet", "", "30 89 70 5f", 4},
     Call{"ZCtrl.GainSet", "3f 00 00 00 3f 80 00 00 44 fa 00 00", "", 0},
-    Call{"ZCtrl.GainGet", "", "3f 00 00 00 3a 03 12 6f 44 fa 00 00", 12},
+    Call{"ZCtrl.GainGet", "", "3f 00 00 00 39 83 12 6f 44 fa 00 00", 12},
     Call{"ZCtrl.ZPosGet", "", "b1 9f 87 a9", 4},
     Call{"Scan.FrameSet", "00 00 00 00 00 00 00 00 33 00 00 00 32 80 00 00 41 f0 00 00", "", 0},
     Call{"Scan.FrameGet", "", "00 00 00 00 00 00 00 00 33 00 00 00 32 80 00 00 41 f0 00 00", 20},
@@ -133,6 +133,30 @@ TEST_F(NanonisFunctions, RefuseArgumentsThatAreMissing) {
     std::string expected;
     for (std::size_t i = 0; i < call.blank; ++i) expected += "00 ";
     EXPECT_EQ(hex_of(body_of(call.name, "")), expected + error) << call.name;
+  }
+}
+
+// Clients read what they have set: P, and T of I = P/T, which they compute I from.
+TEST_F(NanonisFunctions, TellTheTimeConstantOfBothGains) {
+  for (const auto& [gains, read] :
+       {std::pair{"3e 80 00 00 3a 80 00 00 43 80 00 00", "3e 80 00 00 3a 80 00 00 43 80 00 00"},
+        std::pair{"00 00 00 00 3a 80 00 00 43 80 00 00", "00 00 00 00 00 00 00 00 43 80 00 00"},
+        std::pair{"00 00 00 00 00 00 00 00 00 00 00 00", "00 00 00 00 00 00 00 00 00 00 00 00"}}) {
+    body_of("ZCtrl.GainSet", bytes_of(gains));
+    EXPECT_EQ(hex_of(body_of("ZCtrl.GainGet", "").substr(0, 12)), read);
+  }
+}
+
+// A list of channels that is kept although it has no signal would be read back by a client as numbers of pixels.
+TEST_F(NanonisFunctions, RefuseChannelsThatAreNoSignals) {
+  const std::string before = body_of("Scan.BufferGet", "");
+  for (const auto& [channels, why] : {std::pair{"00 00 00 00", "0 signals instead of 1 to 128"},
+                                      std::pair{"00 00 00 81", "129 signals instead of 1 to 128"},
+                                      std::pair{"00 00 00 01 ff ff ff fb", "there is no signal -5"},
+                                      std::pair{"00 00 00 01 00 00 00 80", "there is no signal 128"}}) {
+    const std::string asked = bytes_of(channels) + bytes_of("00 00 00 40 00 00 00 40");
+    EXPECT_EQ(body_of("Scan.BufferSet", asked).substr(8), why);
+    EXPECT_EQ(body_of("Scan.BufferGet", ""), before) << channels;
   }
 }
 
