@@ -327,7 +327,10 @@ core::Result<void> analyse_curve_file(const AnalyseOptions& options) {
   }
   if (!options.out.empty()) {
     curves::SvgPlot plot = curves::features_plot(*measured, compared);
-    if (fit) plot.lines.push_back(fit_line(*measured, *fit, options.fit));
+    if (fit) {
+      plot.lines.push_back(fit_line(*measured, *fit, options.fit));
+      plot.about += fit_text(*fit, options.fit);
+    }
     if (const auto written = core::write_file(options.out, curves::svg(plot)); !written) return written;
   }
   if (!options.json) {

@@ -54,7 +54,7 @@ constexpr const char* kColumns =
     "m2\t"
     "curve\tx_m\ty_m\tcolumn\trow\tadhesion_N\tsnap_in_N\tcontact_slope_N_per_m\tloop_energy_J\tadhesion_energy_J\t"
     "modulus_bootstrap_low_Pa\tmodulus_bootstrap_high_Pa\tW_bootstrap_low_J_per_m2\tW_bootstrap_high_J_per_m2\t"
-    "source\tsoftware\tremarks\n";
+    "remarks\tsource\tsoftware\n";
 
 std::string reasons(const fits::ElasticFit& fit) {
   std::string text;
@@ -133,10 +133,10 @@ std::string bootstrap_cells(const fits::ElasticFit& fit) {
   return moduli + (fit.adhesion ? fmt::format("{}\t{}", work.low, work.high) : "\t");
 }
 
-// Publication of the law, the program, and what the reading of the curve remarks.
+// What the reading of the curve remarks, the publication of the law, and the program.
 std::string origin(fits::Shape shape, const curves::FittedCurve& fitted) {
   const std::string remarks = fmt::format("{}", fmt::join(fitted.remarks, "; "));
-  return fmt::format("{}\t{}\t{}", fits::row_of(shape).meaning, core::written_by(), core::printable_line(remarks));
+  return fmt::format("{}\t{}\t{}", core::printable_line(remarks), fits::row_of(shape).meaning, core::written_by());
 }
 
 // Path of a file as a cell. A spreadsheet would compute a name that begins like a formula, also within quotes.

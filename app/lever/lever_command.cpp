@@ -141,8 +141,9 @@ core::Result<void> calibrate_lever(LeverCommand command) {
   const auto result = curves::calibrate(options);
   if (!result) return tl::unexpected(result.error());
   if (!command.out.empty()) {
-    if (const auto written = core::write_file(command.out, curves::svg(curves::lever_plot(*result))); !written)
-      return written;
+    curves::SvgPlot plot = curves::lever_plot(*result);
+    plot.about = curves::lever_text(options, *result);
+    if (const auto written = core::write_file(command.out, curves::svg(plot)); !written) return written;
   }
   return command.json ? write_stdout(core::json_text(curves::lever_json(options, *result), 2) + "\n")
                       : write_report(curves::lever_text(options, *result));

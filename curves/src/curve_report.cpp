@@ -293,6 +293,7 @@ std::vector<SvgLine> curve_lines(const AnalysedCurve& curve, const std::string& 
 SvgPlot features_plot(const AnalysedCurve& measured, const AnalysedCurve* other) {
   SvgPlot plot;
   plot.title = other == nullptr ? measured.name : fmt::format("{} and {}", measured.name, other->name);
+  plot.about = features_text(measured, other);
   plot.x_label = fmt::format("Z from {} (nm)", zero_name(measured.features));
   plot.y_label = "force on the tip (nN)";
   plot.lines = curve_lines(measured, std::string(distinct_color(0)));

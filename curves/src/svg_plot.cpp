@@ -364,15 +364,17 @@ std::string svg(const SvgPlot& plot) { return svg(std::span(&plot, 1)); }
 std::string svg(std::span<const SvgPlot> column) {
   int width = 0;
   int height = 0;
+  std::string about = core::written_by();
   for (const SvgPlot& plot : column) {
     width = std::max(width, plot.width);
     height += plot.height;
+    if (!plot.about.empty()) about += "\n" + plot.about;
   }
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"Inter, 'DejaVu Sans', sans-serif\" font-size=\"16\" fill=\"#1d2329\">\n"
       "<metadata>{2}</metadata>\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-      width, height, core::written_by());
+      width, height, escaped(about));
   int top = 0;
   for (const SvgPlot& plot : column) {
     const Frame frame(plot);

@@ -41,6 +41,7 @@ struct SvgPlot {
   std::vector<SvgMark> marks;
   AxisScale x_scale = AxisScale::Linear;  // scale of x; logarithmic: the line breaks at values <= 0
   AxisScale y_scale = AxisScale::Linear;
+  std::string about;  // parameters and sources that the file keeps unseen, as lines
   char decimal_mark = '.';
   int width = 960;
   int height = 600;

@@ -270,6 +270,7 @@ nlohmann::ordered_json curve_json(const CurveRun& run) {
 SvgPlot curve_plot(const CurveRun& run) {
   SvgPlot plot;
   plot.title = run.setup.heading();
+  plot.about = run_header(run);
   plot.x_label = "piezo displacement Z (nm)";
   plot.y_label = "force on the tip F (nN)";
   SvgLine approach{"approach", std::string(distinct_color(0)), LineStyle::Dashed, {}};

@@ -209,13 +209,22 @@ std::string title_of_run(const Run& run, const char* what) {
   return fmt::format("{}, {}", run.setup.heading(), what);
 }
 
+std::string header_of(const FrequencyShiftRun& run) {
+  return fmt::format("{}# amplitude_m: {}\n# viscosity_Pa_s: {}\n{}", setup_header(run.setup, run.model, run.place),
+                     run.amplitude.si, run.viscosity.si,
+                     run.at ? fmt::format("# at_m: {}\n", run.at->si) : path_header(run.plan));
+}
+
+std::string header_of(const TappingRun& run) {
+  return setup_header(run.setup, run.model, run.place) + drive_header(run);
+}
+
 }  // namespace
 
 std::string tapping_csv(const TappingRun& run) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "# TouchAFM tapping curve\n{}{}{}", setup_header(run.setup, run.model, run.place),
-                 drive_header(run), conventions_header(true));
+  fmt::format_to(out, "# TouchAFM tapping curve\n{}{}", header_of(run), conventions_header(true));
   if (run.at) {
     fmt::format_to(out, "amplitude_m,phase_deg,mean_deflection_m,{},energy_cleveland_J,state,{}\n", kAverageColumns,
                    run.method == physics::TapMethod::Averaged ? "stable,found_by" : "start");
@@ -246,9 +255,7 @@ std::string tapping_csv(const TappingRun& run) {
 std::string frequency_shift_csv(const FrequencyShiftRun& run) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "# TouchAFM frequency shift curve\n{}# amplitude_m: {}\n# viscosity_Pa_s: {}\n{}{}",
-                 setup_header(run.setup, run.model, run.place), run.amplitude.si, run.viscosity.si,
-                 run.at ? fmt::format("# at_m: {}\n", run.at->si) : path_header(run.plan), conventions_header(false));
+  fmt::format_to(out, "# TouchAFM frequency shift curve\n{}{}", header_of(run), conventions_header(false));
   fmt::format_to(out, "z_m,frequency_shift_Hz,small_amplitude_shift_Hz,{}\n", kAverageColumns);
   for (const physics::FrequencyShiftPoint& point : run.curve.points) {
     fmt::format_to(out, "{},{},{},", point.z.si + 0.0, point.shift.si + 0.0, point.small_amplitude_shift.si + 0.0);
@@ -317,6 +324,7 @@ nlohmann::ordered_json frequency_shift_json(const FrequencyShiftRun& run) {
 std::vector<SvgPlot> tapping_plots(const TappingRun& run) {
   std::vector<SvgPlot> plots(2);
   plots[0].title = title_of_run(run, "tapping");
+  plots[0].about = header_of(run);
   plots[0].y_label = "amplitude A, zero-to-peak (nm)";
   plots[1].y_label = "phase lag (degrees)";
   for (std::size_t i = 0; i < plots.size(); ++i) {
@@ -343,6 +351,7 @@ std::vector<SvgPlot> tapping_plots(const TappingRun& run) {
 std::vector<SvgPlot> frequency_shift_plots(const FrequencyShiftRun& run) {
   std::vector<SvgPlot> plots(1);
   plots[0].title = title_of_run(run, "frequency modulation");
+  plots[0].about = header_of(run);
   plots[0].x_label = "mean height Z (nm)";
   plots[0].y_label = "frequency shift (Hz)";
   SvgLine line{"", std::string(distinct_color(0)), LineStyle::Solid, {}};

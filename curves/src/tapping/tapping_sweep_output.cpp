@@ -79,12 +79,11 @@ void add_lines(const TappingSweep& sweep, SvgPlot& plot) {
   }
 }
 
-}  // namespace
-
-std::string tapping_sweep_csv(const TappingSweep& sweep) {
+// Program, parameters, sources and swept ranges.
+std::string header_of(const TappingSweep& sweep) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out, "# TouchAFM tapping sweep\n# software: {}\n{}", core::written_by(),
+  fmt::format_to(out, "# software: {}\n{}", core::written_by(),
                  setup_header(sweep.setup, swept_parameters(sweep.axes)));
   const TappingOptions& numbers = sweep.choice.numbers;
   if (!is_swept(sweep, "free-amplitude")) fmt::format_to(out, "# free amplitude: {}\n", numbers.free_amplitude);
@@ -94,6 +93,15 @@ std::string tapping_sweep_csv(const TappingSweep& sweep) {
     fmt::format_to(out, "# swept: {} from {} to {}, {} values{}\n", axis.parameter->json_key, axis.from, axis.to,
                    axis.count, axis.logarithmic ? ", equal ratios" : "");
   }
+  return fmt::to_string(text);
+}
+
+}  // namespace
+
+std::string tapping_sweep_csv(const TappingSweep& sweep) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  fmt::format_to(out, "# TouchAFM tapping sweep\n{}", header_of(sweep));
   const json conventions = tapping_conventions();
   for (const auto& [key, meaning] : conventions.items()) {
     fmt::format_to(out, "# {}: {}\n", key, meaning.get<std::string>());
@@ -150,6 +158,7 @@ nlohmann::ordered_json tapping_sweep_json(const TappingSweep& sweep) {
 SvgPlot tapping_sweep_plot(const TappingSweep& sweep) {
   SvgPlot plot;
   plot.title = title_of(sweep);
+  plot.about = header_of(sweep);
   plot.x_label = label_of(sweep.axes[0]);
   plot.x_scale = scale_of(sweep.axes[0]);
   if (sweep.axes.size() == 2) {

@@ -168,6 +168,13 @@ TEST(NamedProgram, IsInEveryPictureWithItsParameters) {
   EXPECT_THAT(scan, HasSubstr(text_in_png("Tip radius", "7 nm")));
   EXPECT_THAT(scan, HasSubstr(text_in_png("Source of tip_radius", "7nm, --tip-radius on the command line")));
 
+  ASSERT_EQ(run_touchafm("curve --material mica --tip-radius 7nm --out " + folder.file("curve.svg")).exit_code, 0);
+  const std::string curve = core::read_file(folder.file("curve.svg")).value();
+  const std::string unseen = curve.substr(0, curve.find("</metadata>"));
+  EXPECT_THAT(unseen, HasSubstr(core::written_by()));
+  EXPECT_THAT(unseen, HasSubstr("# tip_radius_m: 7e-09\n"));
+  EXPECT_THAT(unseen, HasSubstr("# source of tip_radius: 7nm, --tip-radius on the command line"));
+
   ASSERT_EQ(
       run_touchafm("generate map --modulus 4kPa --radius 5um --spring-constant 0.05N/m --most-force 1nN --pixels 2x2 "
                    "--size 1um --out " +
