@@ -133,7 +133,7 @@ std::string bootstrap_cells(const fits::ElasticFit& fit) {
   return moduli + (fit.adhesion ? fmt::format("{}\t{}", work.low, work.high) : "\t");
 }
 
-// What the reading of the curve remarks, the publication of the law, and the program.
+// Remarks of the reading, the publication of the law, and the program.
 std::string origin(fits::Shape shape, const curves::FittedCurve& fitted) {
   const std::string remarks = fmt::format("{}", fmt::join(fitted.remarks, "; "));
   return fmt::format("{}\t{}\t{}", core::printable_line(remarks), fits::row_of(shape).meaning, core::written_by());
