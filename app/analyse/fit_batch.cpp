@@ -256,25 +256,17 @@ core::Result<void> write_page(const AnalyseOptions& options, const Summary& summ
   return core::write_file((folder / kPage).string(), page.html(results, map_texts(options.fit), histograms));
 }
 
-// Logs each remark on the curves of a file once.
-class Remarks {
+// Logs each remark on the curves of a file once, and the progress once a second.
+class RunLog {
  public:
-  void tell(const std::string& file, const curves::FittedCurve& fitted) {
+  void add_remarks(const std::string& file, const curves::FittedCurve& fitted) {
     for (const std::string& remark : fitted.remarks) {
-      if (told_.size() < curves::kMostRemarks && told_.insert(remark).second) {
-        core::log_line(fmt::format("{}: {}", core::printable_line(file), core::printable_line(remark)));
-      }
+      const std::string line = fmt::format("{}: {}", core::printable_line(file), core::printable_line(remark));
+      if (remarks_.size() < curves::kMostRemarks && remarks_.insert(line).second) core::log_line(line);
     }
   }
 
- private:
-  std::set<std::string> told_;
-};
-
-// Logs the progress once a second.
-class Progress {
- public:
-  void tell(std::size_t whole_files, std::size_t files, std::size_t curves, std::size_t count) {
+  void tell_progress(std::size_t whole_files, std::size_t files, std::size_t curves, std::size_t count) {
     const auto now = std::chrono::steady_clock::now();
     if (now - told_ < std::chrono::seconds(1)) return;
     told_ = now;
@@ -288,6 +280,7 @@ class Progress {
   }
 
  private:
+  std::set<std::string> remarks_;
   std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
@@ -306,7 +299,7 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
   core::Result<void> drawn;  // first failure of a picture, which costs no fit
   {
     FitPool pool(files, options, threads);
-    Progress progress;
+    RunLog log;
     for (; whole_files < files.size(); ++whole_files) {
       const std::string& file = files[whole_files];
       const auto count = pool.count(whole_files);
@@ -314,7 +307,6 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
       FitMaps maps(*count);
       page.begin(file);
       const FileCells cells(file, options.fit);
-      Remarks remarks;
       std::string rows;
       std::size_t index = 0;
       for (; index < *count; ++index) {
@@ -324,11 +316,11 @@ core::Result<void> fit_files(const std::vector<std::string>& files, const Analys
         if (!pool.has_next() || rows.size() > kMostUnwritten) {
           if (const auto written = write(std::exchange(rows, {})); !written) return written;
         }
-        remarks.tell(file, *fitted);
+        log.add_remarks(file, *fitted);
         summary.add(*fitted);
         page.add(*fitted);
         maps.add(*fitted);
-        progress.tell(whole_files, files.size(), index + 1, *count);
+        log.tell_progress(whole_files, files.size(), index + 1, *count);
       }
       if (const auto written = write(rows); !written) return written;
       if (index < *count) break;

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "servo/recorded_servo.h"
 #include "servo/replay.h"
 #include "servo/session_file.h"
+#include "session_records.h"
 #include "support/deep.h"
 #include "support/particles/gold_particles.h"
 #include "support/scratch_folder.h"
@@ -49,6 +52,22 @@ TEST(ReplayOfParticles, GivesEveryBitOfTwoHundredAgain) {
   const auto end = replay_particles(*loaded, loaded->samples.back().time_ns);
   ASSERT_TRUE(end) << end.error().message;
   EXPECT_EQ(end->pages, recording.pages());
+}
+
+// A long session consists of thousands of parts: copying the samples before for each would take minutes.
+TEST(SamplesOfAPart, CopyThoseBeforeThemOnlyAsOftenAsTheirNumberDoubles) {
+  std::string part;
+  put_samples(part, std::vector<scene::TipSample>(100), sizeof(scene::TipSample));
+  std::vector<scene::TipSample> samples;
+  int copies = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const scene::TipSample* const before = samples.data();
+    std::string_view bytes = part;
+    ASSERT_TRUE(take_samples(bytes, samples, sizeof(scene::TipSample)));
+    if (samples.data() != before) ++copies;
+  }
+  EXPECT_EQ(samples.size(), 100'000U);
+  EXPECT_LE(copies, 17) << "log2 of their number";
 }
 
 }  // namespace replay_crowd_test

@@ -321,7 +321,6 @@ void FeltParticles::note_events(const physics::PushTick& tick, const Counts& bef
 
 scene::TipPush FeltParticles::push() const noexcept {
   const physics::PushTick& tick = particles_.last();
-  const bool among = tip_ == Tip::Among;
   scene::TipPush push{.digest = digest_,
                       .given_j = tick.given.si,
                       .work_j = tick.work.si,
@@ -336,8 +335,9 @@ scene::TipPush FeltParticles::push() const noexcept {
                       .accounts = accounts_,
                       .met = static_cast<std::uint8_t>(tip_ == Tip::Waits ? 0 : 1),
                       .strokes = static_cast<std::uint16_t>(strokes_.size())};
-  if (!among) return push;
   const glm::dvec2& way_m = drift_.way_m();
+  if (tip_ == Tip::Over) push.base_m = push.apex_m = {over_m_.x + way_m.x, over_m_.y + way_m.y, over_m_.z};
+  if (tip_ != Tip::Among) return push;
   push.base_m = {tick.base.position.x.si + way_m.x, tick.base.position.y.si + way_m.y, tick.base.z.si};
   push.apex_m = {tick.apex.position.x.si + way_m.x, tick.apex.position.y.si + way_m.y, tick.apex.z.si};
   push.lateral_n = {push_n_.x, push_n_.y};

@@ -82,7 +82,6 @@ inline void put_samples(std::string& bytes, std::span<const scene::TipSample> sa
 inline bool take_samples(std::string_view& bytes, std::vector<scene::TipSample>& samples, std::size_t size) {
   std::uint64_t count = 0;
   if (!take(bytes, count) || count > bytes.size() / size) return false;
-  samples.reserve(samples.size() + count);
   for (std::uint64_t i = 0; i < count; ++i) {
     scene::TipSample& sample = samples.emplace_back();
     std::copy_n(bytes.begin(), size, reinterpret_cast<char*>(&sample));

@@ -76,6 +76,15 @@ TEST(FeltDrift, BringsAParticleToATipThatRests) {
   EXPECT_GE(tip.given_j, tip.felt.stored_j());
 }
 
+TEST(FeltDrift, LeavesATipAboveInTheScannersFrame) {
+  RestingTip tip(2);
+  tip.rest(1'000);
+  tip.at_m.x += 50e-9;
+  tip.step(tip.scale.clear_z_m);
+  EXPECT_NEAR(tip.felt.push().apex_m[0], tip.at_m.x, 1e-15);
+  EXPECT_NEAR(tip.felt.push().apex_m[1], tip.at_m.y, 1e-15);
+}
+
 TEST(FeltDrift, IsNoneBelowLevelTwo) {
   RestingTip one(1), none(0);
   one.rest(12'000);

@@ -182,6 +182,21 @@ TEST(FeltParticles, PushTheHandUpByAQuarterOfTheSidewaysForce) {
   });
 }
 
+// The wall draws a lifted tip there.
+TEST(FeltParticles, PublishThePlaceOfATipAboveThem) {
+  Hand hand(particles_at({{0.0, 0.0}}));
+  const double up_m = hand.release_m() + 0.005;
+  for (const double aside_m : {0.02, -0.01}) {
+    hand.step({aside_m, 0.5 * aside_m, up_m});
+    const scene::TipPush push = hand.felt.push();
+    EXPECT_EQ(push.met, 1U);
+    EXPECT_DOUBLE_EQ(push.apex_m[0], aside_m / hand.scale.hand_m_per_m);
+    EXPECT_DOUBLE_EQ(push.apex_m[1], 0.5 * aside_m / hand.scale.hand_m_per_m);
+    EXPECT_GE(push.apex_m[2], hand.scale.clear_z_m);
+    EXPECT_EQ(push.base_m, push.apex_m) << "the lever is straight";
+  }
+}
+
 // The tip is over a particle when it is let down: it waits, and no force comes.
 TEST(FeltParticles, WaitForALiftAfterTheForceWasOff) {
   Hand hand(particles_at({{0.0, 0.0}}));
